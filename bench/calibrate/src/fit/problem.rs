@@ -21,14 +21,18 @@ pub struct Parameter {
     pub scale: Scale,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinearParameter {
-    pub name: &'static str,
-    pub unit: &'static str,
-    /// Smallest value; minus infinity where it has none.
-    pub low: f64,
-    /// Largest value; infinity where it has none.
-    pub high: f64,
+impl Parameter {
+    /// One that enters linearly: from a least value on, minus infinity where there is none.
+    pub const fn linear(name: &'static str, unit: &'static str, low: f64) -> Self {
+        Self {
+            name,
+            unit,
+            start: 0.0,
+            low,
+            high: f64::INFINITY,
+            scale: Scale::Linear,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +58,7 @@ impl Evaluation {
 pub trait Separable: Sync {
     fn nonlinear(&self) -> &[Parameter];
 
-    fn linear(&self) -> &[LinearParameter];
+    fn linear(&self) -> &[Parameter];
 
     fn target(&self) -> &[f64];
 
@@ -65,7 +69,7 @@ pub type Evaluate<'a> = Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>;
 
 pub struct Model<'a> {
     pub nonlinear: Vec<Parameter>,
-    pub linear: Vec<LinearParameter>,
+    pub linear: Vec<Parameter>,
     pub target: Vec<f64>,
     pub evaluate: Evaluate<'a>,
 }
@@ -75,7 +79,7 @@ impl Separable for Model<'_> {
         &self.nonlinear
     }
 
-    fn linear(&self) -> &[LinearParameter] {
+    fn linear(&self) -> &[Parameter] {
         &self.linear
     }
 

@@ -11,7 +11,7 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
-use super::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable, inner, outer};
+use super::problem::{Evaluation, Parameter, Scale, Separable, inner, outer};
 use crate::estimator::fit::{dot, rms};
 use epas_page::failure::Failure;
 
@@ -95,6 +95,9 @@ fn descend(problem: &dyn Separable, tolerance: f64) -> Result<Found, Failure> {
 }
 
 pub fn at_bound(parameter: &Parameter, value: f64) -> bool {
+    if parameter.high == f64::INFINITY {
+        return value <= parameter.low;
+    }
     let part = Axis::of(parameter).part(value);
     !(AT_BOUND..=1.0 - AT_BOUND).contains(&part)
 }
@@ -257,7 +260,7 @@ pub(crate) fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>
 fn within_bounds(
     columns: &[Vec<f64>],
     target: &DVector<f64>,
-    parameters: &[LinearParameter],
+    parameters: &[Parameter],
 ) -> Vec<f64> {
     let count = columns.len();
     let sizes: Vec<f64> = columns
@@ -300,7 +303,7 @@ fn within_bounds(
             place.map_or(held[k].unwrap_or(0.0), |place| solved[place])
         };
         let beyond = |k: usize| {
-            let LinearParameter { low, high, .. } = parameters[k];
+            let Parameter { low, high, .. } = parameters[k];
             let (x, low, high) = (all(k), low * sizes[k], high * sizes[k]);
             (low - x).max(x - high)
         };
@@ -312,7 +315,7 @@ fn within_bounds(
         let Some(k) = worst else {
             return (0..count).map(|k| all(k) / sizes[k]).collect();
         };
-        let LinearParameter { low, high, .. } = parameters[k];
+        let Parameter { low, high, .. } = parameters[k];
         held[k] = Some(all(k).max(low * sizes[k]).min(high * sizes[k]));
     }
 }

@@ -24,7 +24,7 @@ use super::stages::{AT_TURNS, Prepared};
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::QUARTER;
 use crate::estimator::rows::Rows;
-use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
+use crate::fit::problem::{Evaluation, Parameter, Separable};
 use epas_page::failure::Failure;
 
 #[derive(Clone, Debug)]
@@ -121,7 +121,7 @@ pub struct ScrewProblem<'a> {
     nonlinear: Vec<&'static Quantity>,
     parameters: Vec<Parameter>,
     terms: Vec<Term>,
-    linear: Vec<LinearParameter>,
+    linear: Vec<Parameter>,
     target: Vec<f64>,
 }
 
@@ -154,12 +154,7 @@ impl<'a> ScrewProblem<'a> {
             };
             let is_estimated = estimated.iter().any(|linear| linear.name == of.name);
             if is_estimated {
-                self.linear.push(LinearParameter {
-                    name: of.name,
-                    unit: of.unit,
-                    low,
-                    high: f64::INFINITY,
-                });
+                self.linear.push(Parameter::linear(of.name, of.unit, low));
             }
             if is_estimated || of.value(values) != 0.0 {
                 let still = if self.moves(factor) {
@@ -506,7 +501,7 @@ impl Separable for ScrewProblem<'_> {
         &self.parameters
     }
 
-    fn linear(&self) -> &[LinearParameter] {
+    fn linear(&self) -> &[Parameter] {
         &self.linear
     }
 
