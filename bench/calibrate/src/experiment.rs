@@ -52,12 +52,12 @@ impl Said {
         let start: Vec<f64> = problem.nonlinear().iter().map(|of| of.start).collect();
         let (linear, _) = projected(problem, &start);
         let slopes = slopes(problem, &start, &linear);
-        let nonlinear = problem.nonlinear().iter();
-        let nonlinear = nonlinear.map(|own| (own.name, own.scale, [own.low, own.high], own.start));
-        let linear = problem.linear().iter().zip(linear);
-        let linear =
-            linear.map(|(own, value)| (own.name, Scale::Linear, [own.low, own.high], value));
-        let all: Vec<_> = nonlinear.chain(linear).collect();
+        let parameters = problem.nonlinear().iter().chain(problem.linear());
+        let values = start.into_iter().chain(linear);
+        let all: Vec<_> = parameters
+            .zip(values)
+            .map(|(own, value)| (own.name, own.scale, [own.low, own.high], value))
+            .collect();
         let place = all.iter().position(|(name, ..)| *name == wanted);
         let place = place.ok_or_else(|| Failure::Data(format!("{wanted}: no such parameter")))?;
         let information = |i: usize, j: usize| dot(&slopes[i], &slopes[j]) / (NOISE * NOISE);
@@ -96,7 +96,6 @@ impl Said {
         [-half, half].map(|away| outer(scale, inner(scale, value) + away).clamp(low, high))
     }
 
-    /// The parameter that hides this one most, and their correlation.
     fn hidden_by(&self) -> Option<(&'static str, f64)> {
         let covariance = covariance(&self.own)?;
         let k = self.place;

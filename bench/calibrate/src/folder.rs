@@ -21,7 +21,7 @@ use crate::outputs::print_json;
 use answered::{Answered, alike};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
-use population::{Common, HALF_INTERVAL, Outlier, Population, common, outliers, populations};
+use population::{HALF_INTERVAL, Outlier, Population, outliers, populations};
 pub use store::list;
 use store::{Key, Stored, Told};
 
@@ -104,11 +104,10 @@ struct Together {
     /// The same without the traces that stand out; empty where none does.
     without_outliers: Vec<Population>,
     outliers: Vec<Outlier>,
-    common: Option<Common>,
 }
 
 impl Together {
-    /// Puts traces in the order of their names, and looks what they have in common.
+    /// Puts traces in the order of their names, and looks what they tell together.
     fn of(mut traces: Vec<Stored>) -> Result<Self, Failure> {
         traces.sort_by(|one, other| one.trace.cmp(&other.trace));
         let mut together = Self {
@@ -122,11 +121,9 @@ impl Together {
         let near = together.told().filter(|(name, _)| !far(name));
         let near: Vec<&Answered> = near.map(|(_, told)| &told.answered).collect();
         alike(&all).map_err(Failure::Data)?;
-        let (population, common) = (populations(&all), common(&all));
-        if near.len() < all.len() {
-            together.without_outliers = populations(&near);
-        }
-        (together.population, together.common) = (population, common);
+        let without = (near.len() < all.len()).then(|| populations(&near));
+        together.population = populations(&all);
+        together.without_outliers = without.unwrap_or_default();
         together.outliers = outliers;
         Ok(together)
     }
@@ -180,7 +177,6 @@ impl Together {
             "population": self.population,
             "population_without_outliers": self.without_outliers,
             "outliers": self.outliers,
-            "common": self.common,
         })
     }
 }

@@ -12,7 +12,6 @@ use crate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
 use crate::trace::channels::range;
 
-/// How friction of sliding follows the speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Not at all (Coulomb).
@@ -23,7 +22,6 @@ pub enum Level {
     LoadShare,
 }
 
-/// How friction passes from one direction to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passage {
     /// At once: where a motion is known, at its turning points; where it comes sample by sample, a bristle as short as a step of the
@@ -31,11 +29,9 @@ pub enum Passage {
     AtOnce,
     /// By the speed: `v/sqrt(v^2 + v_r^2)`, as in the crate's scenes without memory.
     Speed,
-    /// Dahl's law, implicit.
     Dahl,
     /// LuGre: Dahl's bristles that follow the level, with a damping of their own.
     LuGre,
-    /// The crate's elements that remember.
     Elements,
 }
 
@@ -64,7 +60,6 @@ pub struct Scales {
     pub travel: f64,
     /// Step of the position's sensor, rad or m.
     pub resolution: f64,
-    /// Tick, s.
     pub tick: f64,
 }
 

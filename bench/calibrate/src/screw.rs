@@ -5,8 +5,8 @@
 pub mod choice;
 mod compared;
 pub(crate) mod evidence;
-pub mod exact;
-pub mod friction;
+pub(crate) mod exact;
+pub(crate) mod friction;
 pub(crate) mod problem;
 pub(crate) mod quantities;
 pub(crate) mod stages;
@@ -150,7 +150,7 @@ pub fn plain(
         ..request.clone()
     };
     let found = calibrate(trace, design, &request)?;
-    let answered = Answered::of(&found.picture.residual(), &found.uncertainty, true)?;
+    let answered = Answered::of(&found.uncertainty, true)?;
     Ok((found.answer, answered))
 }
 

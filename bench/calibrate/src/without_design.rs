@@ -153,9 +153,6 @@ pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
             .flat_map(|i| places.iter().map(|j| entry(*i, *j)))
             .collect(),
         model_errors: vec![0.0; places.len()],
-        rows: found.fit.residual.len() as u64,
-        effective_rows: answer.effective_rows,
-        residual_squares: found.fit.residual.iter().map(|left| left * left).sum(),
     };
     Ok((answer, answered.checked().map_err(Failure::Data)?))
 }

@@ -6,7 +6,7 @@ use epas_cli::bindings::{
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::{Rig, Sensors};
+use epas_rig::Rig;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -387,7 +387,7 @@ pub fn reference_measured_trace<'py>(
         }
     };
     let run =
-        move |_: &Stop| Rig::new(Parameters::default(), Sensors::default())?.run(&course, seed);
+        move |_: &Stop| Rig::new(Parameters::default())?.run(&course, seed);
     let trace = interruptible(py, run)?.map_err(|error| refused(py, error))?;
     let dict = PyDict::new(py);
     for (name, values) in [

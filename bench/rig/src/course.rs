@@ -98,7 +98,6 @@ impl Course {
         let mut trace = Trace::default();
         for &(manoeuvre, duration) in &self.parts {
             within("duration", duration, 1.0, 1e4)?;
-            let first = trace.truth.position.len();
             let part = Part {
                 duration,
                 tick: self.tick,
@@ -106,7 +105,6 @@ impl Course {
                 start: trace.truth.position.last().copied().unwrap_or(0.0),
             };
             part.drive(manoeuvre, &mut random, &mut trace.truth);
-            trace.parts.push((manoeuvre, first..first + part.ticks));
         }
         // Half of the power passes at 20 Hz.
         let width = 6.6e-3 / self.tick;

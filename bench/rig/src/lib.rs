@@ -16,38 +16,24 @@ mod friction;
 pub mod parameters;
 
 use std::io::Write;
-use std::ops::Range;
 
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use course::{Course, Manoeuvre, STREAM};
+use course::{Course, STREAM};
 use epas_reference::closed_loop::ClosedLoop;
 use epas_reference::error::{ReferenceError, within};
 use friction::{Memory, Sliding, State};
 use parameters::Parameters;
 
-/// What sensors do to a trace.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sensors {
-    /// Standard deviation of the torque's noise over that of the torque.
-    pub torque_noise: f64,
-    /// Standard deviation of the load's noise, N.
-    pub load_noise: f64,
-    /// Turn of the nut for one count of the encoder, rad; 0 for an angle without steps.
-    pub count: f64,
-}
+/// Standard deviation of the torque's white noise over that of the torque.
+const TORQUE_NOISE: f64 = 0.01;
 
-impl Default for Sensors {
-    /// 1 % on the torque, 8 N on the load, both white; 14 bits of the motor's turn behind a ratio of 2.5.
-    fn default() -> Self {
-        Self {
-            torque_noise: 0.01,
-            load_noise: 8.0,
-            count: ClosedLoop::COUNT,
-        }
-    }
-}
+/// Standard deviation of the load's white noise, N.
+const LOAD_NOISE: f64 = 8.0;
+
+/// Turn of the nut for one count of the encoder, rad: 14 bits of the motor's turn behind a ratio of 2.5.
+const COUNT: f64 = ClosedLoop::COUNT;
 
 /// Measured columns, and the truth behind them; all of one length.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,52 +48,27 @@ pub struct Trace {
     pub axial_load: Vec<f64>,
     /// Temperature, K.
     pub temperature: Vec<f64>,
-    /// Truth.
-    pub truth: Truth,
-    /// Which samples belong to which manoeuvre.
-    pub parts: Vec<(Manoeuvre, Range<usize>)>,
+    truth: Truth,
 }
 
-/// What a measurement does not show.
+/// What a measurement does not show: angle of the nut, rad; its speed, rad/s; axial load, N; friction and motor torque, N m.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Truth {
-    /// Angle of the nut, rad.
-    pub position: Vec<f64>,
-    /// Its speed, rad/s.
-    pub speed: Vec<f64>,
-    /// Axial load, N.
-    pub load: Vec<f64>,
-    /// Friction torque, N m.
-    pub friction: Vec<f64>,
-    /// Motor torque, N m.
-    pub torque: Vec<f64>,
+struct Truth {
+    position: Vec<f64>,
+    speed: Vec<f64>,
+    load: Vec<f64>,
+    friction: Vec<f64>,
+    torque: Vec<f64>,
 }
 
 /// A rig: a screw with its drive and sensors.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rig {
-    sensors: Sensors,
-    sliding: Sliding,
-}
+pub struct Rig(Sliding);
 
 impl Rig {
     /// Solves the balls of the screw: some hundred, in parallel.
-    pub fn new(parameters: Parameters, sensors: Sensors) -> Result<Self, ReferenceError> {
-        within("torque_noise", sensors.torque_noise, 0.0, 10.0)?;
-        within("load_noise", sensors.load_noise, 0.0, 1e6)?;
-        within("count", sensors.count, 0.0, 1.0)?;
-        within("breakaway", parameters.breakaway, 1e-6, 1.0)?;
-        within("backlash", parameters.backlash, 0.0, 1.0)?;
-        if let Some([share, travel]) = parameters.spinning {
-            within("share of spin", share, 0.0, 1.0)?;
-            within("travel of spin", travel, 1e-3, 1e3)?;
-        }
-        if let Some([torque, breakaway]) = parameters.seal {
-            within("torque of the seal", torque, 0.0, 1e3)?;
-            within("breakaway of the seal", breakaway, 1e-6, 1.0)?;
-        }
-        let sliding = Sliding::new(parameters)?;
-        Ok(Self { sensors, sliding })
+    pub fn new(parameters: Parameters) -> Result<Self, ReferenceError> {
+        Ok(Self(Sliding::new(parameters)?))
     }
 
     /// Runs a course.
@@ -117,38 +78,27 @@ impl Rig {
         let truth = &trace.truth;
         let mut random = Pcg64::new(seed.into(), STREAM ^ 1);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
-        let Sensors {
-            torque_noise,
-            load_noise,
-            count,
-        } = self.sensors;
-        let size = torque_noise * deviation(&truth.torque);
+        let size = TORQUE_NOISE * deviation(&truth.torque);
         let torque = truth.torque.iter();
         trace.motor_torque = torque.map(|torque| torque + size * normal()).collect();
         // One draw lies between both noises.
         normal();
         let load = truth.load.iter();
-        trace.axial_load = load.map(|load| load + load_noise * normal()).collect();
-        let counted = |angle: &f64| {
-            if count > 0.0 {
-                (angle / count).round() * count
-            } else {
-                *angle
-            }
-        };
+        trace.axial_load = load.map(|load| load + LOAD_NOISE * normal()).collect();
+        let counted = |angle: &f64| (angle / COUNT).round() * COUNT;
         trace.nut_position = truth.position.iter().map(counted).collect();
         Ok(trace)
     }
 
     /// Speed, friction and torque along the motion of a trace.
     fn drive(&self, tick: f64, trace: &mut Trace) -> Result<(), ReferenceError> {
-        let parameters = &self.sliding.parameters;
+        let parameters = &self.0.parameters;
         let (screw, play) = (&parameters.screw, 0.5 * parameters.backlash);
         let truth = &mut trace.truth;
         truth.speed = slopes(&truth.position, tick);
         let acceleration = slopes(&truth.speed, tick);
         let reference_sum = screw.flank_sum(parameters.reference_axial_load);
-        let mut memory = Memory::new(&self.sliding);
+        let mut memory = Memory::new(&self.0);
         // In the middle of the play at the start.
         let mut nut = truth.position.first().copied().unwrap_or(0.0);
         for (index, angle) in truth.position.iter().enumerate() {
@@ -181,31 +131,13 @@ impl Rig {
 }
 
 impl Trace {
-    /// Number of samples.
-    pub fn len(&self) -> usize {
-        self.time.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.time.is_empty()
-    }
-
-    /// Samples of a manoeuvre, in all its parts.
-    pub fn samples_of(&self, manoeuvre: Manoeuvre) -> impl Iterator<Item = usize> {
-        self.parts
-            .iter()
-            .filter(move |(which, _)| *which == manoeuvre)
-            .flat_map(|(_, samples)| samples.clone())
-    }
-
     /// Writes the measured columns as comma-separated values: `time,nut_position,motor_torque,axial_load,temperature`, in s, rad,
     /// N m, N and K.
     pub fn write_csv(&self, out: impl Write) -> Result<(), csv::Error> {
         let mut table = csv::Writer::from_writer(out);
         let names = "time,nut_position,motor_torque,axial_load,temperature";
         table.write_record(names.split(','))?;
-        for index in 0..self.len() {
+        for index in 0..self.time.len() {
             table.write_record([
                 format!("{:.6}", self.time[index]),
                 format!("{:.9}", self.nut_position[index]),

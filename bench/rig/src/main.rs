@@ -8,9 +8,9 @@
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
+use epas_rig::Rig;
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::{Rig, Sensors};
 
 fn main() -> ExitCode {
     match run() {
@@ -39,7 +39,7 @@ fn run() -> Result<(), String> {
     }
     let mut out = stdout().lock();
     let truth = parameters.header();
-    let rig = Rig::new(parameters, Sensors::default()).map_err(|error| error.to_string())?;
+    let rig = Rig::new(parameters).map_err(|error| error.to_string())?;
     let trace = rig.run(&course, seed).map_err(|error| error.to_string())?;
     let written = out.write_all(truth.as_bytes());
     written.map_err(|error| error.to_string())?;

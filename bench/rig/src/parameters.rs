@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use epas_reference::coefficient::Vogel;
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
-use epas_reference::error::{ReferenceError, within};
+use epas_reference::error::ReferenceError;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use epas_reference::material::Elastic;
@@ -55,7 +55,6 @@ impl Screw {
     /// Two contacts of a diagonal share twice the oversize; each carries its part of the preload,
     /// `axial_preload/(balls sin b cos a)`.
     pub fn clearance(&self) -> Result<f64, ReferenceError> {
-        within("axial_preload", self.axial_preload, 0.0, 1e5)?;
         let deflection = self.design.contact(Groove::Screw)?.deflection
             + self.design.contact(Groove::Nut)?.deflection;
         Ok(-0.5 * deflection * self.contact_force(self.axial_preload).powf(2.0 / 3.0))

@@ -5,7 +5,7 @@ use crate::friction::SlidingTorque;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 
 fn rig(parameters: Parameters) -> Rig {
-    Rig::new(parameters, Sensors::default()).unwrap()
+    Rig::new(parameters).unwrap()
 }
 
 fn less(one: &[f64], other: &[f64]) -> Vec<f64> {
@@ -19,26 +19,22 @@ fn less(one: &[f64], other: &[f64]) -> Vec<f64> {
 /// that they are named for.
 #[test]
 fn sensors_and_courses_are_as_set() {
-    let (sensors, rig) = (Sensors::default(), rig(Parameters::default()));
+    let rig = rig(Parameters::default());
     let trace = rig.run(&Course::vehicle(), 5).unwrap();
     let truth = &trace.truth;
-    assert_eq!(trace.len(), 60_000);
-    let within = 5.0 / (2.0 * trace.len() as f64).sqrt();
-    let set = sensors.torque_noise * deviation(&truth.torque);
+    assert_eq!(trace.time.len(), 60_000);
+    let within = 5.0 / (2.0 * trace.time.len() as f64).sqrt();
+    let set = TORQUE_NOISE * deviation(&truth.torque);
     for (measured, exact, set) in [
         (&trace.motor_torque, &truth.torque, set),
-        (&trace.axial_load, &truth.load, sensors.load_noise),
+        (&trace.axial_load, &truth.load, LOAD_NOISE),
     ] {
         assert!((deviation(&less(measured, exact)) / set - 1.0).abs() < within);
     }
     let rounded = less(&trace.nut_position, &truth.position);
-    assert!(
-        rounded
-            .iter()
-            .all(|error| error.abs() <= 0.500_001 * sensors.count)
-    );
+    assert!(rounded.iter().all(|error| error.abs() <= 0.500_001 * COUNT));
     // 0.6 rad rms over all of the weave but its fading ends.
-    let size = deviation(&truth.position[trace.parts[0].1.clone()]);
+    let size = deviation(&truth.position[..20_000]);
     assert!((0.5..0.7).contains(&size), "{size}");
     let fastest = truth
         .speed
@@ -64,11 +60,11 @@ fn friction_takes_power_and_stays_between_its_limits() {
         let trace = rig.run(&Course::whole(), 1).unwrap();
         let truth = &trace.truth;
         let (mut work, mut size) = (0.0, 0.0);
-        for index in 1..trace.len() {
+        for index in 1..trace.time.len() {
             let turn = truth.position[index] - truth.position[index - 1];
             work += turn * truth.friction[index];
             size += (turn * truth.friction[index]).abs();
-            let limits = rig.sliding.limits(&State {
+            let limits = rig.0.limits(&State {
                 turn,
                 speed: truth.speed[index],
                 load: truth.load[index],

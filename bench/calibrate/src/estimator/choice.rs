@@ -55,7 +55,6 @@ pub struct Estimate {
     pub values: Vec<f64>,
     /// Half of each 95 % interval.
     pub half_widths: Vec<f64>,
-    /// The fit with the kernel that was chosen.
     pub fit: Fit,
     /// Half-width of the kernel, s.
     pub length: f64,

@@ -14,7 +14,6 @@ const RANK: f64 = 1e-12;
 
 #[derive(Clone, Debug, Default)]
 pub struct Block {
-    /// Columns in the order of the names, each of one length.
     pub columns: Vec<Vec<f64>>,
     pub target: Vec<f64>,
     /// Covariance of the sensor's noise in the columns of a row.
@@ -31,13 +30,11 @@ pub type Meaning<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
 pub struct Fit {
     pub coefficients: Vec<f64>,
     pub values: Vec<f64>,
-    /// Half of each 95 % interval.
     pub half_widths: Vec<f64>,
     /// Covariance of the values by the jackknife over pieces.
     pub covariance: DMatrix<f64>,
     /// Effective number of pieces that tell each coefficient.
     pub pieces: Vec<f64>,
-    /// Degrees of freedom of each interval.
     pub freedom: Vec<f64>,
     pub residual: Vec<f64>,
     pub residual_rms: f64,

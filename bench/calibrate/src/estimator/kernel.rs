@@ -12,67 +12,53 @@ pub struct Kernel {
     weights: [Vec<f64>; 4],
 }
 
-fn scale(weights: &mut [f64], factor: f64) {
-    for weight in weights {
-        *weight *= factor;
-    }
-}
-
 impl Kernel {
     /// Of `half` samples to each side, 1 or more, of a tick, s.
     pub fn new(half: usize, tick: f64) -> Self {
         let half = half.max(1);
         let n = half as f64 + 1.0;
-        let length = n * tick;
         let at = |k: usize| k as f64 - half as f64;
-        let sampled = |of: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
-            let values = (0..=2 * half).map(|k| {
-                let u = at(k) / n;
-                of(u, 1.0 - u * u)
-            });
-            values.collect()
-        };
+        // A correlation with phi' is minus the derivative, one with phi'' the second one, one with phi''' minus the third.
+        let shapes: [fn(f64, f64) -> f64; 4] = [
+            |_, v| v.powi(4),
+            |u, v| 8.0 * u * v.powi(3),
+            |u, v| 48.0 * u * u * v.powi(2) - 8.0 * v.powi(3),
+            |u, v| 192.0 * u.powi(3) * v - 144.0 * u * v.powi(2),
+        ];
         let moment = |weights: &[f64], power: i32| -> f64 {
             let terms = weights.iter().enumerate();
             terms.map(|(k, w)| w * (at(k) * tick).powi(power)).sum()
         };
-        let mut phi = sampled(&|_, v| v.powi(4));
-        let sum = moment(&phi, 0);
-        scale(&mut phi, 1.0 / sum);
-        // A correlation with phi' is minus the derivative, one with phi'' the second one, one with phi''' minus the third.
-        let mut first = sampled(&|u, v| 8.0 * u * v.powi(3) / (sum * length));
-        let mut second =
-            sampled(&|u, v| (48.0 * u * u * v.powi(2) - 8.0 * v.powi(3)) / (sum * length.powi(2)));
-        let mut third = sampled(&|u, v| {
-            (192.0 * u.powi(3) * v - 144.0 * u * v.powi(2)) / (sum * length.powi(3))
+        let mut weights: [Vec<f64>; 4] = shapes.map(|shape| {
+            let places = (0..=2 * half).map(|k| at(k) / n);
+            places.map(|u| shape(u, 1.0 - u * u)).collect()
         });
-        let slope = moment(&first, 1);
-        scale(&mut first, 1.0 / slope);
-        let mean = moment(&second, 0);
-        for (w, phi) in second.iter_mut().zip(&phi) {
-            *w -= mean * phi;
+        // Moments below the order are 0, that of the order is its factorial.
+        for (order, whole) in [(0, 1.0), (1, 1.0), (2, 2.0), (3, 6.0)] {
+            let (lower, own) = weights.split_at_mut(order);
+            let own = &mut own[0];
+            if order >= 2 {
+                let part = moment(own, order as i32 - 2);
+                for (w, lower) in own.iter_mut().zip(&lower[order - 2]) {
+                    *w -= part * lower;
+                }
+            }
+            let factor = whole / moment(own, order as i32);
+            for w in own {
+                *w *= factor;
+            }
         }
-        let curvature = moment(&second, 2) / 2.0;
-        scale(&mut second, 1.0 / curvature);
-        let slope = moment(&third, 1);
-        for (w, first) in third.iter_mut().zip(&first) {
-            *w -= slope * first;
-        }
-        let jerk = moment(&third, 3) / 6.0;
-        scale(&mut third, 1.0 / jerk);
         Self {
             half,
             tick,
-            weights: [phi, first, second, third],
+            weights,
         }
     }
 
-    /// Tick, s.
     pub const fn tick(&self) -> f64 {
         self.tick
     }
 
-    /// Samples to each side.
     pub const fn half(&self) -> usize {
         self.half
     }
@@ -100,7 +86,6 @@ impl Kernel {
             .sum()
     }
 
-    /// A derivative of a whole signal.
     pub fn along(&self, order: usize, signal: &[f64]) -> Vec<f64> {
         (0..signal.len())
             .map(|centre| self.at(order, signal, centre))

@@ -24,14 +24,10 @@ const RESTS: f64 = 0.3;
 /// Deviation over mean of a speed that counts as one.
 const ONE_SPEED: f64 = 0.05;
 
-/// A record of a drive.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Name.
     pub name: String,
-    /// Tick, s.
     pub tick: f64,
-    /// Whether the speed was measured and not the position.
     pub speed_alone: bool,
     /// What was measured of the motion, rad or rad/s (m, m/s): a position, between the instants at which its count changes on a straight
     /// line, or a speed.
@@ -42,7 +38,6 @@ pub struct Record {
     pub effort: Vec<f64>,
     /// Load, N, or its effort.
     pub load: Option<Vec<f64>>,
-    /// Whether the load is in the effort's own unit.
     pub load_is_effort: bool,
     /// Standard deviation of the motion's sensor, rad or rad/s (m, m/s).
     pub noise: f64,
@@ -55,7 +50,6 @@ pub struct Record {
 }
 
 impl Record {
-    /// That of a trace, with more samples left out.
     pub fn of(trace: &Trace, more: &[Range<usize>]) -> Self {
         let mut bad = vec![0; trace.len() + 1];
         for range in trace.left_out.iter().chain(more) {
@@ -85,7 +79,6 @@ impl Record {
         }
     }
 
-    /// With this position, of a sensor with this step.
     fn with_position(self, position: &[f64], step: f64) -> Self {
         let (motion, noise, least) = if step > 0.0 {
             (between_counts(position), step / 12_f64.sqrt(), STEPS * step)
@@ -103,7 +96,6 @@ impl Record {
         }
     }
 
-    /// With this speed in the place of a position.
     fn with_speed(self, speed: &[f64]) -> Self {
         let step = resolution(speed);
         let largest = speed.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
@@ -124,7 +116,6 @@ impl Record {
         }
     }
 
-    /// The same with position and effort exchanged.
     #[must_use]
     pub fn exchanged(&self) -> Self {
         let other = Self {
@@ -145,14 +136,8 @@ impl Record {
         }
     }
 
-    /// Number of samples.
     pub fn len(&self) -> usize {
         self.effort.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.effort.is_empty()
     }
 
     /// Whether nothing of some samples, given by the first and the last, is left out.

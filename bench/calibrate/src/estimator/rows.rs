@@ -11,16 +11,13 @@ const ROWS: usize = 3;
 /// Half-widths in a piece of a stretch.
 const PIECE: usize = 8;
 
-/// Where the rows of a record stand.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// The kernel.
     pub kernel: Kernel,
     /// Sample at the middle of each row.
     pub centres: Vec<usize>,
     /// Direction of each row, 1 or -1.
     pub directions: Vec<f64>,
-    /// Number of the stretch in which it lies.
     pub stretches: Vec<usize>,
     /// Number of the piece of a stretch in which it lies; those of neighbours in a stretch differ by 1, those of two stretches by more.
     pub pieces: Vec<usize>,
@@ -87,14 +84,8 @@ impl Rows {
         Some(rows)
     }
 
-    /// Number of rows.
     pub fn len(&self) -> usize {
         self.centres.len()
-    }
-
-    /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
-        self.centres.is_empty()
     }
 
     /// A derivative, 0 to 3, of a signal in every row.

@@ -128,7 +128,6 @@ mod tests {
 
     #[test]
     fn rests_and_turns_end_a_stretch() {
-        // Up, a rest, up, and down.
         let mut position: Vec<f64> = (0..50).map(f64::from).collect();
         position.extend([49.0; 30]);
         position.extend((50..100).map(f64::from));

@@ -81,7 +81,6 @@ impl Term {
 }
 
 impl Block {
-    /// Rows of a record with these terms.
     pub fn of(record: &Record, rows: &Rows, terms: &[Term]) -> Self {
         let derivative = |k: usize| rows.sums(record.order(k), &record.motion);
         let signed = |values: Vec<f64>| -> Vec<f64> {

@@ -175,6 +175,8 @@ fn told(trace: &Trace) -> Result<Diagnosis, String> {
 
 type Spoil = fn(&mut Trace);
 
+type Channel = fn(&mut Trace) -> &mut Vec<f64>;
+
 fn each(values: &mut [f64], of: impl Fn(f64) -> f64) {
     for value in values {
         *value = of(*value);
@@ -263,7 +265,7 @@ fn what_is_wrong_is_named() {
 /// Each channel that comes 10 or 40 ms late has its word, of drives that run and that rest, and the time in it.
 #[test]
 fn a_late_channel_is_named() {
-    let channels: [(&str, fn(&mut Trace) -> &mut Vec<f64>); 3] = [
+    let channels: [(&str, Channel); 3] = [
         ("motor_torque", |trace| &mut trace.effort),
         ("the position", |trace| &mut trace.position),
         ("load_torque", |trace| trace.load.as_mut().unwrap()),

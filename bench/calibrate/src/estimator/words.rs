@@ -41,7 +41,7 @@ const LATE: (isize, f64) = (3, 1.3);
 const IN_THE_FIT: f64 = 0.02;
 const LONG: f64 = 0.034;
 
-/// Residual with a viscous friction that differs by direction over that without, below which it is named.
+/// Residual with a friction that differs by direction, or changes towards rest, over that without, below which it is named.
 const TAKES: f64 = 0.97;
 
 /// Terms that are tried beside those of the equation: each speed below, a zero error of the load, viscous friction that differs by direction.
@@ -71,7 +71,6 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
 pub struct Screened {
     /// Half-width of the kernel, s, and way after a turn, rad or m.
     pub kernel: (f64, f64),
-    /// The word on how late a channel is.
     pub late: Option<String>,
 }
 
@@ -567,10 +566,12 @@ impl<'a> Look<'a> {
         speeds.sort_by(f64::total_cmp);
         let fast = speeds[speeds.len() * 9 / 10];
         let tried = STRIBECK.map(|share| share * fast);
+        // Slow rows are those near the turns.
+        let plain = self.with(&[], self.lags(found), Some((found.length, 0.0)))?;
         let (speed, _) = tried
             .into_iter()
-            // Slow rows are those near the turns.
             .filter_map(|speed| Some((speed, self.surely(found, Term::Stribeck(speed), 0.0)?)))
+            .filter(|(_, other)| other.fit.residual_rms < TAKES * plain.fit.residual_rms)
             .min_by(|one, other| one.1.fit.residual_rms.total_cmp(&other.1.fit.residual_rms))?;
         let term = Term::Stribeck(speed);
         let better = self.with(&[term], self.lags(found), None)?;

@@ -11,37 +11,30 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// A parameter that does not enter linearly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// Name, as in a design file.
     pub name: &'static str,
-    /// Unit.
     pub unit: &'static str,
-    /// First guess, within the bounds.
     pub start: f64,
-    /// Smallest value.
     pub low: f64,
-    /// Largest value.
     pub high: f64,
-    /// How it is stepped.
     pub scale: Scale,
 }
 
-/// A parameter that enters linearly.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LinearParameter {
-    /// Name.
-    pub name: &'static str,
-    /// Unit.
-    pub unit: &'static str,
-    /// Smallest value; minus infinity where it has none.
-    pub low: f64,
-    /// Largest value; infinity where it has none.
-    pub high: f64,
+impl Parameter {
+    /// One that enters linearly: from a least value on, minus infinity where there is none.
+    pub const fn linear(name: &'static str, unit: &'static str, low: f64) -> Self {
+        Self {
+            name,
+            unit,
+            start: 0.0,
+            low,
+            high: f64::INFINITY,
+            scale: Scale::Linear,
+        }
+    }
 }
 
-/// The model at given nonlinear parameters, at every row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evaluation {
     /// What has no linear parameter.
@@ -51,7 +44,6 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
-    /// The whole model at these linear parameters.
     pub fn sum(mut self, linear: &[f64]) -> Vec<f64> {
         for (column, value) in self.columns.iter().zip(linear) {
             for (sum, entry) in self.fixed.iter_mut().zip(column) {
@@ -64,31 +56,21 @@ impl Evaluation {
 
 /// A least-squares problem whose linear parameters are eliminated: `target = fixed(q) + sum p_k column_k(q) + residual`.
 pub trait Separable: Sync {
-    /// Parameters `q` that do not enter linearly.
     fn nonlinear(&self) -> &[Parameter];
 
-    /// Parameters `p` that do.
-    fn linear(&self) -> &[LinearParameter];
+    fn linear(&self) -> &[Parameter];
 
-    /// What was measured, at every row.
     fn target(&self) -> &[f64];
 
-    /// The model at these values of `q`.
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
 }
 
-/// The model at values of the nonlinear parameters.
 pub type Evaluate<'a> = Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>;
 
-/// A problem of given parts.
 pub struct Model<'a> {
-    /// As [`Separable::nonlinear`].
     pub nonlinear: Vec<Parameter>,
-    /// As [`Separable::linear`].
-    pub linear: Vec<LinearParameter>,
-    /// As [`Separable::target`].
+    pub linear: Vec<Parameter>,
     pub target: Vec<f64>,
-    /// As [`Separable::evaluate`].
     pub evaluate: Evaluate<'a>,
 }
 
@@ -97,7 +79,7 @@ impl Separable for Model<'_> {
         &self.nonlinear
     }
 
-    fn linear(&self) -> &[LinearParameter] {
+    fn linear(&self) -> &[Parameter] {
         &self.linear
     }
 

@@ -11,11 +11,10 @@ use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
-use super::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable, inner, outer};
+use super::problem::{Evaluation, Parameter, Scale, Separable, inner, outer};
 use crate::estimator::fit::{dot, rms};
 use epas_page::failure::Failure;
 
-/// Shift of the outer coordinate.
 const SHIFT: f64 = 2.0;
 
 /// A start on a bound has no slope in the outer coordinate: it is moved in by this part of the range.
@@ -39,30 +38,23 @@ const PATIENCE: usize = 20;
 /// Least singular value of the linear columns, over the largest, that counts.
 const RANK: f64 = 1e-10;
 
-/// A fit; parameters in the problem's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Nonlinear parameters.
     pub nonlinear: Vec<f64>,
-    /// Linear parameters.
     pub linear: Vec<f64>,
-    /// Target less model at every row.
     pub residual: Vec<f64>,
 }
 
 impl Found {
-    /// Sum of the squares of what is left.
     pub fn cost(&self) -> f64 {
         self.residual.iter().map(|left| left * left).sum()
     }
 
-    /// Root of the mean square of what is left.
     pub fn residual_rms(&self) -> f64 {
         rms(&self.residual)
     }
 }
 
-/// Fits a problem from its start.
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
     descend(problem, TOLERANCE)
 }
@@ -102,8 +94,10 @@ fn descend(problem: &dyn Separable, tolerance: f64) -> Result<Found, Failure> {
     })
 }
 
-/// Whether a value is at a bound of its parameter.
 pub fn at_bound(parameter: &Parameter, value: f64) -> bool {
+    if parameter.high == f64::INFINITY {
+        return value <= parameter.low;
+    }
     let part = Axis::of(parameter).part(value);
     !(AT_BOUND..=1.0 - AT_BOUND).contains(&part)
 }
@@ -174,20 +168,17 @@ impl<'a> Axis<'a> {
         (inner(self.parameter.scale, value) - self.low) / self.range
     }
 
-    /// The outer coordinate of a parameter's start.
     fn start(parameter: &Parameter) -> f64 {
         let part = Axis::of(parameter).part(parameter.start);
         SHIFT + (2.0 * part.clamp(INSIDE, 1.0 - INSIDE) - 1.0).asin()
     }
 
-    /// The value at an inner coordinate.
     fn value(&self, place: f64) -> f64 {
         outer(self.parameter.scale, place)
             .max(self.parameter.low)
             .min(self.parameter.high)
     }
 
-    /// The value at an outer coordinate.
     fn outside(&self, u: f64) -> f64 {
         self.value(self.low + self.range * 0.5 * (1.0 + (u - SHIFT).sin()))
     }
@@ -269,7 +260,7 @@ pub(crate) fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>
 fn within_bounds(
     columns: &[Vec<f64>],
     target: &DVector<f64>,
-    parameters: &[LinearParameter],
+    parameters: &[Parameter],
 ) -> Vec<f64> {
     let count = columns.len();
     let sizes: Vec<f64> = columns
@@ -312,7 +303,7 @@ fn within_bounds(
             place.map_or(held[k].unwrap_or(0.0), |place| solved[place])
         };
         let beyond = |k: usize| {
-            let LinearParameter { low, high, .. } = parameters[k];
+            let Parameter { low, high, .. } = parameters[k];
             let (x, low, high) = (all(k), low * sizes[k], high * sizes[k]);
             (low - x).max(x - high)
         };
@@ -324,7 +315,7 @@ fn within_bounds(
         let Some(k) = worst else {
             return (0..count).map(|k| all(k) / sizes[k]).collect();
         };
-        let LinearParameter { low, high, .. } = parameters[k];
+        let Parameter { low, high, .. } = parameters[k];
         held[k] = Some(all(k).max(low * sizes[k]).min(high * sizes[k]));
     }
 }

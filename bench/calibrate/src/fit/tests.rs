@@ -51,7 +51,6 @@ fn intervals_hold_under_noise_with_a_memory() {
     assert!(held.iter().all(|held| *held >= 52), "{held:?}");
 }
 
-/// What cannot be fitted is refused by its name.
 #[test]
 fn a_first_guess_beyond_its_bounds_is_named() {
     let mut toy = stribeck_toy(&[0.0; 1500], 0.0);

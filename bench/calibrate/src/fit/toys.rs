@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
-use crate::fit::problem::{Evaluation, LinearParameter, Model, Parameter, Scale};
+use crate::fit::problem::{Evaluation, Model, Parameter, Scale};
 
 pub fn positive(name: &'static str, start: f64, low: f64, high: f64) -> Parameter {
     Parameter {
@@ -17,13 +17,8 @@ pub fn positive(name: &'static str, start: f64, low: f64, high: f64) -> Paramete
     }
 }
 
-pub fn free(name: &'static str) -> LinearParameter {
-    LinearParameter {
-        name,
-        unit: "1",
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    }
+pub fn free(name: &'static str) -> Parameter {
+    Parameter::linear(name, "1", f64::NEG_INFINITY)
 }
 
 /// Normal noise of deviation 1 with correlation `memory` between neighbours.
@@ -67,10 +62,8 @@ pub fn stribeck(speeds: &[f64], q: &[f64]) -> Evaluation {
     }
 }
 
-/// Truth of [`stribeck`].
 pub const STRIBECK: ([f64; 2], [f64; 3]) = ([3.0, 0.8], [2.0, 0.15, -0.1]);
 
-/// A Stribeck problem with noise.
 pub fn stribeck_toy(noise: &[f64], size: f64) -> Model<'static> {
     let speeds = speeds(noise.len());
     let clean = stribeck(&speeds, &STRIBECK.0).sum(&STRIBECK.1);

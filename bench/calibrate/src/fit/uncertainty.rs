@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::problem::{Scale, Separable, inner, outer};
+use super::problem::{Parameter, Scale, Separable, inner, outer};
 use super::search::{Found, at_bound, slopes};
 use crate::estimator::fit::{Block, fit as least_squares};
 
@@ -16,7 +16,6 @@ const PIECE: usize = 24;
 pub struct Interval {
     pub name: &'static str,
     pub unit: &'static str,
-    /// Scale of its inner coordinate.
     pub scale: Scale,
     pub value: f64,
     /// Low end of the 95 % interval, not below the low bound.
@@ -30,7 +29,6 @@ pub struct Interval {
     /// Half width of the interval in the inner coordinate, whatever the bounds.
     pub half_width: f64,
     pub bounds: [f64; 2],
-    /// Whether the value is at a bound.
     pub at_bound: bool,
 }
 
@@ -65,35 +63,22 @@ impl Interval {
 
 /// Intervals of a fit without a width yet.
 pub fn intervals(problem: &dyn Separable, found: &Found) -> Vec<Interval> {
-    let at = |(name, unit, scale), bounds, value, at_bound| Interval {
-        name,
-        unit,
-        scale,
-        value,
-        low: value,
-        high: value,
+    let interval = |(of, value): (&Parameter, &f64)| Interval {
+        name: of.name,
+        unit: of.unit,
+        scale: of.scale,
+        value: *value,
+        low: *value,
+        high: *value,
         standard_error: 0.0,
         model_error: 0.0,
         half_width: 0.0,
-        bounds,
-        at_bound,
+        bounds: [of.low, of.high],
+        at_bound: at_bound(of, *value),
     };
     let nonlinear = problem.nonlinear().iter().zip(&found.nonlinear);
-    let nonlinear = nonlinear.map(|(of, value)| {
-        let named = (of.name, of.unit, of.scale);
-        at(named, [of.low, of.high], *value, at_bound(of, *value))
-    });
     let linear = problem.linear().iter().zip(&found.linear);
-    let linear = linear.map(|(of, value)| {
-        let bound = *value <= of.low || *value >= of.high;
-        at(
-            (of.name, of.unit, Scale::Linear),
-            [of.low, of.high],
-            *value,
-            bound,
-        )
-    });
-    nonlinear.chain(linear).collect()
+    nonlinear.chain(linear).map(interval).collect()
 }
 
 /// How sure a fit of rows in the order of time is: by the jackknife over pieces of the linearised problem.

@@ -26,17 +26,11 @@ pub struct Answered {
     pub covariance: Vec<f64>,
     /// Standard deviations of the inner coordinates by the model's own errors, which are the same in every trace.
     pub model_errors: Vec<f64>,
-    /// Rows of the fit.
-    pub rows: u64,
-    /// Rows that count as independent.
-    pub effective_rows: f64,
-    /// Sum of the squares of the rows' residuals.
-    pub residual_squares: f64,
 }
 
 impl Answered {
-    /// What a fit with this residual told.
-    pub fn of(residual: &[f64], sure: &Uncertainty, with_design: bool) -> Result<Self, Failure> {
+    /// What a fit told.
+    pub fn of(sure: &Uncertainty, with_design: bool) -> Result<Self, Failure> {
         let intervals = || sure.intervals.iter();
         let answered = Self {
             with_design,
@@ -47,9 +41,6 @@ impl Answered {
             values: intervals().map(|own| own.value).collect(),
             covariance: sure.covariance.transpose().iter().copied().collect(),
             model_errors: intervals().map(|own| own.model_error).collect(),
-            rows: residual.len() as u64,
-            effective_rows: sure.effective_rows,
-            residual_squares: residual.iter().map(|left| left * left).sum(),
         };
         answered.checked().map_err(Failure::Data)
     }
@@ -75,7 +66,12 @@ impl Answered {
                 "{}: not a finite number with a positive variance",
                 self.names[k]
             )),
-            None if self.information().is_none() => Err("no covariance of its parameters".into()),
+            None if DMatrix::from_row_slice(count, count, &self.covariance)
+                .cholesky()
+                .is_none() =>
+            {
+                Err("no covariance of its parameters".into())
+            }
             None => Ok(self),
         }
     }
@@ -93,12 +89,6 @@ impl Answered {
     /// Variance of an inner coordinate.
     pub(super) fn variance(&self, k: usize) -> f64 {
         self.covariance[k * (self.names.len() + 1)]
-    }
-
-    pub(super) fn information(&self) -> Option<DMatrix<f64>> {
-        let count = self.names.len();
-        let covariance = DMatrix::from_row_slice(count, count, &self.covariance);
-        Some(covariance.cholesky()?.inverse())
     }
 }
 

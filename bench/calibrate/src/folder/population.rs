@@ -1,13 +1,11 @@
-//! What traces tell together: the population of each parameter, one value for all, and the traces that stand out.
+//! What traces tell together: the population of each parameter, and the traces that stand out.
 //!
 //! The spread of a population is Paule and Mandel's (1982), which solves `sum w (q - mean)^2 = n - 1`, `w = 1/(variance + spread^2)`,
-//! over the inner coordinates `q` of all traces. The common values weight each trace with the inverse `A` of its covariance:
-//! `q = (sum A)^-1 sum A q_i`, as if all traces had been fitted at once.
+//! over the inner coordinates `q` of all traces.
 //!
 //! Errors of the model itself are the same in every trace of a screw. No mean takes them out: they widen the interval of the mean, by as
 //! much as the traces say each of itself, and have no part in the weights or the spread.
 
-use nalgebra::{DMatrix, DVector};
 use roots::{SimpleConvergency, find_root_brent};
 use serde::Serialize;
 
@@ -41,21 +39,6 @@ pub struct Population {
     pub spread: Option<f64>,
     /// Interval that holds the next unit with 95 %. `None` with fewer than three traces.
     pub next: Option<[f64; 2]>,
-}
-
-/// Parameters with one value for all traces.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Common {
-    /// Name, value, and 95 % interval.
-    pub parameters: Vec<(String, f64, [f64; 2])>,
-    /// Chi-squared per degree of freedom, which is 1 where the traces differ by their errors only; `None` without any.
-    pub chi_squared: Option<f64>,
-    /// Rows of all traces.
-    pub rows: u64,
-    /// Rows that count as independent.
-    pub effective_rows: f64,
-    /// Root of the mean square of all rows' residuals.
-    pub residual_rms: f64,
 }
 
 /// A parameter of a trace that is far from the others'.
@@ -174,61 +157,6 @@ fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
         next: (traces > 2)
             .then(|| around(quantile(freedom - 1.0, 1) * (spread + 1.0 / weight).sqrt())),
     }
-}
-
-/// Parameters with one value for all traces. `None` where the traces together do not tell all that any of them tells.
-pub fn common(all: &[&Answered]) -> Option<Common> {
-    let names = names(all);
-    let mut information = DMatrix::<f64>::zeros(names.len(), names.len());
-    let mut pull = DVector::zeros(names.len());
-    let mut traces = Vec::new();
-    for answered in all {
-        let own = answered.names.iter();
-        let places: Vec<usize> = own
-            .filter_map(|own| names.iter().position(|(name, _)| own == name))
-            .collect();
-        let inner = DVector::from_fn(places.len(), |k, _| answered.inner(k));
-        let weight = answered.information()?;
-        let pulled = &weight * &inner;
-        for (i, into) in places.iter().enumerate() {
-            pull[*into] += pulled[i];
-            for (j, column) in places.iter().enumerate() {
-                information[(*into, *column)] += weight[(i, j)];
-            }
-        }
-        traces.push((places, inner, weight));
-    }
-    let covariance = information.cholesky()?.inverse();
-    let values = &covariance * pull;
-    let (mut chi, mut freedom) = (0.0, -(names.len() as f64));
-    let mut errors = vec![(0.0, 0.0); names.len()];
-    for (answered, (places, inner, weight)) in all.iter().zip(&traces) {
-        let away = DVector::from_fn(places.len(), |k, _| inner[k] - values[places[k]]);
-        chi += away.dot(&(weight * &away));
-        freedom += places.len() as f64;
-        for (place, error) in places.iter().zip(&answered.model_errors) {
-            errors[*place] = (errors[*place].0 + error, errors[*place].1 + 1.0);
-        }
-    }
-    let chi_squared = (freedom > 0.0).then(|| chi / freedom);
-    // Traces that differ by more than their errors say less (Birge 1932).
-    let wider = chi_squared.unwrap_or(1.0).max(1.0).sqrt();
-    let parameter = |(k, (name, logarithmic)): (usize, &(&str, bool))| {
-        let (shared, traces) = errors[k];
-        let own = covariance[(k, k)].sqrt() * wider;
-        let half = HALF_INTERVAL * own.hypot(shared / traces);
-        let at = |away: f64| outer(*logarithmic, values[k] + away);
-        ((*name).to_owned(), at(0.0), [at(-half), at(half)])
-    };
-    let rows: u64 = all.iter().map(|answered| answered.rows).sum();
-    let squares: f64 = all.iter().map(|answered| answered.residual_squares).sum();
-    Some(Common {
-        parameters: names.iter().enumerate().map(parameter).collect(),
-        chi_squared,
-        rows,
-        effective_rows: all.iter().map(|answered| answered.effective_rows).sum(),
-        residual_rms: (squares / rows as f64).sqrt(),
-    })
 }
 
 /// Traces far from the median of a parameter: name of the trace, value, standard error. The median and the median distance hardly move

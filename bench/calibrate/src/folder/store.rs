@@ -12,7 +12,7 @@ use epas_page::failure::Failure;
 use epas_page::files::{self, Existing};
 
 /// Form of the files; another one is fitted again.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A trace's file at the time of its fit, and how it was fitted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,7 +25,6 @@ pub struct Key {
 }
 
 impl Key {
-    /// Of a trace's file as it is now.
     pub fn of(trace: &Path, settings: &str) -> Result<Self, Failure> {
         let bytes = fs::read(trace).map_err(|error| Failure::file("read", trace, &error))?;
         Ok(Self {
@@ -40,7 +39,6 @@ impl Key {
 pub struct Told {
     /// The object that `calibrate --json` prints of it.
     pub answer: Value,
-    /// What it adds to what many tell together.
     pub answered: Answered,
 }
 
@@ -48,7 +46,6 @@ pub struct Told {
 pub struct Stored {
     pub trace: String,
     pub key: Key,
-    /// What it told, or why it was refused.
     pub ended: Result<Told, String>,
 }
 

@@ -4,13 +4,13 @@ use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Rol
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::{Error, defaults};
 
-use crate::screw::friction::{ElementsKind, Reference, Screw};
+use crate::screw::friction::{ElementsKind, Reference};
 use crate::screw::quantities::Values;
 use epas_design::files::Design;
 use epas_design::files::calibration::REFERENCE_TEMPERATURE;
 use epas_page::failure::Failure;
 
-pub use crate::screw::friction::ELEMENTS;
+pub use crate::screw::friction::{ELEMENTS, Screw};
 
 /// What firmware takes of a design beyond its configuration.
 #[derive(Clone, Debug, PartialEq)]

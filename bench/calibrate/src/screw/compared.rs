@@ -7,7 +7,7 @@ use super::problem::{ScrewProblem, flank_sum};
 use super::stages::Prepared;
 use crate::answer::ModelScore;
 use crate::estimator::record::Record;
-use crate::fit::problem::{Evaluation, LinearParameter, Model, Parameter, Scale, Separable};
+use crate::fit::problem::{Evaluation, Model, Parameter, Scale, Separable};
 use crate::laws::{BREAKAWAY, Cost, Law, Scales};
 use crate::models::{Entry, LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
 use crate::trace::Trace;
@@ -21,12 +21,7 @@ const REVERSAL_SPEEDS: [f64; 3] = [1e-3, 0.2, 50.0];
 const PRELOADS: [f64; 2] = [1e-3, 10.0];
 
 /// Friction of gross sliding without a load: what a law of unit level is multiplied by.
-const LEVEL: LinearParameter = LinearParameter {
-    name: "level",
-    unit: "N m",
-    low: 0.0,
-    high: f64::INFINITY,
-};
+const LEVEL: Parameter = Parameter::linear("level", "N m", 0.0);
 
 struct Side<'a> {
     prepared: &'a Prepared<'a>,

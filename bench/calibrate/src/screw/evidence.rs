@@ -95,7 +95,6 @@ fn ends(list: &[f64]) -> Option<[f64; 2]> {
     }))
 }
 
-/// How often a path turns back by more than a distance.
 fn reversals(path: &[f64], distance: f64) -> usize {
     let stretches = of_position(path, distance, path.len());
     let turns = stretches

@@ -129,7 +129,6 @@ const POINTS: usize = 4;
 /// What of a ball's torque is told apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
-    /// With the rolling resistance of the design.
     Whole,
     Hysteresis,
     Drag,

@@ -24,7 +24,7 @@ use super::stages::{AT_TURNS, Prepared};
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::QUARTER;
 use crate::estimator::rows::Rows;
-use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
+use crate::fit::problem::{Evaluation, Parameter, Separable};
 use epas_page::failure::Failure;
 
 #[derive(Clone, Debug)]
@@ -64,7 +64,6 @@ impl Choice {
     }
 }
 
-/// How friction passes from one direction to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passage {
     /// It does not: every row has one direction, in which the balls slide.
@@ -79,7 +78,6 @@ struct Samples {
     course: Course,
     /// 1 or -1 within the window of a row, else 0.
     direction: Vec<f64>,
-    /// Cosine and sine of one and of two angles.
     waves: [Vec<f64>; 4],
 }
 
@@ -92,7 +90,6 @@ struct Term {
     still: Vec<f64>,
 }
 
-/// Values, which of them are estimated, and the exact ball.
 #[derive(Clone, Copy)]
 pub struct Known<'a> {
     pub values: &'a Values,
@@ -124,7 +121,7 @@ pub struct ScrewProblem<'a> {
     nonlinear: Vec<&'static Quantity>,
     parameters: Vec<Parameter>,
     terms: Vec<Term>,
-    linear: Vec<LinearParameter>,
+    linear: Vec<Parameter>,
     target: Vec<f64>,
 }
 
@@ -157,12 +154,7 @@ impl<'a> ScrewProblem<'a> {
             };
             let is_estimated = estimated.iter().any(|linear| linear.name == of.name);
             if is_estimated {
-                self.linear.push(LinearParameter {
-                    name: of.name,
-                    unit: of.unit,
-                    low,
-                    high: f64::INFINITY,
-                });
+                self.linear.push(Parameter::linear(of.name, of.unit, low));
             }
             if is_estimated || of.value(values) != 0.0 {
                 let still = if self.moves(factor) {
@@ -353,7 +345,6 @@ impl<'a> ScrewProblem<'a> {
             .collect()
     }
 
-    /// A wave over the turn times the flanks' loads.
     fn wave(&self, place: usize, flanks: &[f64]) -> Vec<f64> {
         let wave = &self.samples.waves[place];
         if flanks.is_empty() {
@@ -510,7 +501,7 @@ impl Separable for ScrewProblem<'_> {
         &self.parameters
     }
 
-    fn linear(&self) -> &[LinearParameter] {
+    fn linear(&self) -> &[Parameter] {
         &self.linear
     }
 

@@ -179,7 +179,6 @@ impl Quantity {
         values
     }
 
-    /// What it multiplies, where it enters linearly.
     pub const fn factor(&self) -> Option<Factor> {
         match self.kind {
             Kind::Linear(factor, _) => Some(factor),

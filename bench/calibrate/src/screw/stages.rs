@@ -22,7 +22,6 @@ use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
 
-/// Fewest samples to each side of a kernel.
 const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
@@ -79,7 +78,6 @@ pub struct Window {
 pub struct Linearised {
     /// Slopes by the inner coordinates, nonlinear quantities first.
     pub columns: Vec<Vec<f64>>,
-    /// The estimator's answer in inner coordinates.
     pub fit: Fit,
 }
 
@@ -90,7 +88,6 @@ pub struct Sliding {
     pub covariance: DMatrix<f64>,
     /// Largest over smallest singular value of the slopes, each column scaled to 1, and the direction of the smallest.
     pub condition: (f64, Vec<f64>),
-    /// Root of the mean square of the rows' residual.
     pub residual_rms: f64,
 }
 

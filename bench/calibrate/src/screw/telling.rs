@@ -19,7 +19,6 @@ const ROLLING: [&str; 2] = ["hysteresis_loss", "lubricant_drag"];
 
 pub struct Untold {
     pub name: &'static str,
-    /// Why, what would tell it, and what it is set to.
     pub sentence: String,
 }
 
@@ -110,7 +109,6 @@ pub fn with(name: &str, value: f64, values: &Values) -> Values {
     Quantity::named(name).map_or(*values, |of| of.with(value, values))
 }
 
-/// "a", "a and b", "a, b and c", in plain words.
 fn words(names: &[&str]) -> String {
     let plain = |name: &&str| name.replace('_', " ");
     match names {

@@ -9,7 +9,7 @@ use epas_friction::Clearance;
 use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::{Rig, Sensors, Trace as Measured};
+use epas_rig::{Rig, Trace as Measured};
 use rayon::prelude::*;
 
 use super::exact::{Grid, Spacing};
@@ -42,7 +42,7 @@ fn design() -> Design {
 }
 
 fn measured(parameters: Parameters, course: &Course, seed: u64) -> Measured {
-    let rig = Rig::new(parameters, Sensors::default()).unwrap();
+    let rig = Rig::new(parameters).unwrap();
     rig.run(course, seed).unwrap()
 }
 
@@ -203,7 +203,7 @@ fn wrong_requests_are_named() {
 fn intervals_hold_nine_times_of_ten() {
     let runs: u64 = std::env::var("RUNS").map_or(100, |runs| runs.parse().unwrap());
     let wanted = std::env::var("COURSES").unwrap_or_else(|_| "vehicle,rig,whole".into());
-    let rig = Rig::new(Parameters::default(), Sensors::default()).unwrap();
+    let rig = Rig::new(Parameters::default()).unwrap();
     let mut missed = Vec::new();
     let courses = [
         ("vehicle", Course::vehicle()),

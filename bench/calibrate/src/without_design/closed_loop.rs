@@ -21,7 +21,6 @@ pub struct Loop<'a> {
     pub controller: &'a SeenController,
 }
 
-/// What a simulated loop did, and how far it is from the trace.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
     /// Efforts of the controller, N or N m.

@@ -110,7 +110,6 @@ impl SeenController {
         }
     }
 
-    /// What is said of gains that do not explain the trace.
     pub fn doubt(&self) -> Option<String> {
         let Controller {
             gain_position,

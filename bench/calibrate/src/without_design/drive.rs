@@ -123,7 +123,6 @@ impl Drive {
         self.estimates.iter().find(|found| found.name == name)
     }
 
-    /// An estimate that firmware may have, where it was told.
     fn value(&self, name: &str) -> Result<Option<f64>, Failure> {
         match self.told(name) {
             Some(found) if found.value < 0.0 => Err(refused(name, "is below zero")),

@@ -12,14 +12,13 @@ use std::ops::Range;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::terms::Term;
-use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use crate::fit::problem::{Evaluation, Parameter, Scale, Separable};
 use crate::laws::{Friction, Law, Scales};
 use crate::mechanism::{Resistance, Step};
 use crate::trace::KnownEffort;
 use crate::trace::channels::range;
 use crate::trace::{Coordinate, Trace};
 
-/// Fewest samples to each side of a kernel.
 const FEWEST: usize = 4;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +40,6 @@ const ROWS: usize = 6_000;
 pub struct Prepared<'a> {
     pub trace: &'a Trace,
     pub motion: Smoothed,
-    /// Its load, smoothed; 0 without one.
     load: Vec<f64>,
     /// Time between these samples, s.
     tick: f64,
@@ -136,7 +134,6 @@ impl<'a> Prepared<'a> {
 
 struct Instant {
     position: f64,
-    /// Position from the middle of the way.
     place: f64,
     speed: f64,
     acceleration: f64,
@@ -147,11 +144,10 @@ struct Instant {
 }
 
 struct Addend {
-    parameter: LinearParameter,
+    parameter: Parameter,
     of: fn(&Instant) -> f64,
     /// Whether that is smooth where motion and load are.
     smooth: bool,
-    /// Whether it follows the law.
     rubs: bool,
 }
 
@@ -163,7 +159,7 @@ pub struct Slide<'a> {
     /// Effort of a unit of load that has no parameter.
     own_load: f64,
     nonlinear: Vec<Parameter>,
-    linear: Vec<LinearParameter>,
+    linear: Vec<Parameter>,
     addends: Vec<Addend>,
     /// Which of them make the level of the friction without a load.
     level: Range<usize>,
@@ -180,14 +176,8 @@ const SLOPE: &str = "friction_slope";
 
 impl Addend {
     fn new([name, unit]: [&'static str; 2], of: fn(&Instant) -> f64) -> Self {
-        let parameter = LinearParameter {
-            name,
-            unit,
-            low: f64::NEG_INFINITY,
-            high: f64::INFINITY,
-        };
         Self {
-            parameter,
+            parameter: Parameter::linear(name, unit, f64::NEG_INFINITY),
             of,
             smooth: false,
             rubs: false,
@@ -326,7 +316,7 @@ impl<'a> Slide<'a> {
         linear: &[f64],
     ) -> Result<SlideResistance<'_>, epas_friction::Error> {
         // A drag that pushes would have no end.
-        let value = |(parameter, value): (&LinearParameter, &f64)| {
+        let value = |(parameter, value): (&Parameter, &f64)| {
             let drags = parameter.name.starts_with("viscous_friction");
             if drags { value.max(0.0) } else { *value }
         };
@@ -352,7 +342,7 @@ impl Separable for Slide<'_> {
         &self.nonlinear
     }
 
-    fn linear(&self) -> &[LinearParameter] {
+    fn linear(&self) -> &[Parameter] {
         &self.linear
     }
 

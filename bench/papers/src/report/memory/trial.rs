@@ -9,7 +9,7 @@ use epas_calibrate::trace::columns::{Frame, from_reader};
 use epas_design::files::{Design, DesignSource};
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::{Rig, Sensors};
+use epas_rig::Rig;
 use rayon::prelude::*;
 
 use epas_bench::report::draw::table;
@@ -65,7 +65,7 @@ fn left(score: &ModelScore) -> f64 {
 fn scores(gear: &Parameters, length: f64) -> Result<Vec<ModelScore>, Failure> {
     let source: DesignSource = "lin-4.1".parse().map_err(Failure::Data)?;
     let design = source.load()?;
-    let rig = Rig::new(gear.clone(), Sensors::default())?;
+    let rig = Rig::new(gear.clone())?;
     let course = Course::vehicle().times(length);
     let [fitted, unseen] = SEEDS.map(|seed| trace(&rig, &course, seed, &design));
     let request = Request {
