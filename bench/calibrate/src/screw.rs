@@ -34,6 +34,7 @@ use crate::page::picture::Picture;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::{comparable, placed};
 use epas_design::files::Design;
+use epas_design::files::plausible::{FASTEST_BALLS, LONGEST};
 use epas_page::failure::Failure;
 
 /// How a trace of a screw is calibrated.
@@ -275,16 +276,11 @@ const GROWTH: f64 = 1.02;
 /// the turn, known to a step, decides.
 const STEPS: f64 = 2.0;
 
-/// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).
-const FASTEST: f64 = 16.0;
-/// Longest travel, m.
-const LONGEST: f64 = 3.0;
-
 /// Whether a screw of this design can move so, and whether anything presses its balls.
 fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
     let speed = f64::from(design.screw().pitch_radius()) * evidence.speeds[1];
     let travel = reduced_lead(design) * evidence.range;
-    if speed > FASTEST || travel > LONGEST {
+    if speed > FASTEST_BALLS || travel > LONGEST {
         return Err(Failure::Data(format!(
             "a travel of {travel:.3} m with balls at {speed:.1} m/s does not fit this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
         )));

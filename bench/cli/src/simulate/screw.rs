@@ -12,7 +12,7 @@ use super::samples::ScrewSample;
 use super::scene::Row;
 use super::summary::{Course, Lines, Pressing, Words};
 use super::trace::Trace;
-use epas_design::files::plausible::FASTEST;
+use epas_design::files::plausible::{FASTEST, FASTEST_BALLS, LONGEST};
 use epas_design::files::{Design, capacity};
 
 /// Settings that decide the friction of a scene, with what a design file leaves to the defaults.
@@ -77,23 +77,32 @@ pub fn within(
     (trace, Some(words))
 }
 
-/// What a trace that is far too fast for its design may be, by its peaks of speed, rad/s, and load, N.
-fn too_fast(design: &Design, [speed, load]: [f64; 2]) -> Option<String> {
+/// What a trace that is far too fast for its design, or goes too far, may be, by its peaks of speed, rad/s, and load, N, and the range of its travel, m.
+fn too_fast(design: &Design, [speed, load]: [f64; 2], range: f64) -> Option<String> {
     let Limits {
         nut_speed,
         axial_load,
         ..
     } = design.caged.limits;
-    if speed <= FASTEST * f64::from(nut_speed) {
+    let balls = f64::from(design.screw().pitch_radius()) * speed;
+    let fits = balls <= FASTEST_BALLS && range <= LONGEST;
+    if fits && speed <= FASTEST * f64::from(nut_speed) {
         return None;
     }
+    let fits = if fits {
+        String::new()
+    } else {
+        format!(
+            "; a travel of {range:.1} m with balls at {balls:.1} m/s fits no screw of this size"
+        )
+    };
     let exchanged = if load <= nut_speed.into() && speed <= axial_load.into() {
         "; or are the names nut_speed and axial_load exchanged?"
     } else {
         ""
     };
     Some(format!(
-        "{speed:.0} rad/s, and nut_speed in [limits] is {nut_speed}; is it in degrees or turns? Then its column is named nut_speed [deg/s] or nut_speed [rpm]{exchanged}"
+        "{speed:.0} rad/s, and nut_speed in [limits] is {nut_speed}{fits}; is it in degrees or turns? Then its column is named nut_speed [deg/s] or nut_speed [rpm]{exchanged}"
     ))
 }
 
@@ -111,6 +120,8 @@ pub const DIFFERENCE: &str = "largest difference from f64";
 pub struct ScrewSummary {
     course: Course,
     peak_motor: f64,
+    /// Least and largest angle of the nut, rad.
+    reach: [f64; 2],
     driving: Work,
     back_driving: Work,
     reference: Option<Difference>,
@@ -137,6 +148,7 @@ impl ScrewSummary {
         Self {
             course: Course::new(f64::from(design.screw().lead()) / TAU),
             peak_motor: 0.0,
+            reach: [0.0; 2],
             driving: Work::default(),
             back_driving: Work::default(),
             reference: None,
@@ -157,6 +169,8 @@ impl ScrewSummary {
             beyond.add(sample.nut_speed, sample.axial_load, outputs.faults);
         }
         self.peak_motor = self.peak_motor.max(motor.abs());
+        let [least, most] = self.reach;
+        self.reach = [least.min(row.motion), most.max(row.motion)];
         let work = if load * rotation >= 0.0 {
             &mut self.driving
         } else {
@@ -219,7 +233,9 @@ impl ScrewSummary {
         }
         self.course.flags(&mut lines);
         let peaks = [self.course.peak_speed(), self.course.peak_load()];
-        if let Some(words) = too_fast(design, peaks) {
+        let [least, most] = self.reach;
+        let range = (most - least) * f64::from(design.screw().lead()) / TAU;
+        if let Some(words) = too_fast(design, peaks, range) {
             lines.add("speed limit", words);
         }
         let load = self.course.peak_load();
@@ -331,13 +347,18 @@ mod tests {
             "design",
         )
         .unwrap();
-        assert_eq!(too_fast(&design, [440.0, 5e3]), None);
-        let words = too_fast(&design, [2e3, 5e3]).unwrap();
+        assert_eq!(too_fast(&design, [440.0, 5e3], 0.1), None);
+        let words = too_fast(&design, [440.0, 5e3], 5.0).unwrap();
+        assert!(
+            words.contains("a travel of 5.0 m with balls at 6.4 m/s"),
+            "{words}"
+        );
+        let words = too_fast(&design, [2e3, 5e3], 0.1).unwrap();
         assert!(
             words.contains("nut_speed [deg/s]") && !words.contains("exchanged"),
             "{words}"
         );
-        let words = too_fast(&design, [14.5e3, 35.0]).unwrap();
+        let words = too_fast(&design, [14.5e3, 35.0], 0.1).unwrap();
         assert!(words.contains("axial_load exchanged"), "{words}");
     }
 

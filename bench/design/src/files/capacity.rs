@@ -36,7 +36,7 @@ impl Preload {
     }
 }
 
-/// Usual preloads over the static limit of a contact: 1 to 10 % of the dynamic rating `C_a`, which is 0.1 to 0.7 of the static one, with a reserve.
+/// Usual preloads over the static limit of a contact: 1 to 10 % of the dynamic rating `C_a`, which is 0.25 to 0.7 of the static one, with a reserve.
 const USUAL: [f32; 2] = [1e-3, 0.1];
 
 /// A word for a preload that no nut has: a number of the nut in the key of a contact, or the reverse.
@@ -128,7 +128,8 @@ mod tests {
         assert!(beyond(&screw, 1.001 * load).unwrap().contains("4.2 GPa"));
     }
 
-    /// A preload of the nut in the key of a contact and the reverse, both ways; a limit in kN.
+    /// A preload of the nut in the key of a contact and the reverse, both ways, and that of no built-in design with the default clearance; a limit in
+    /// kN.
     #[test]
     fn wrong_keys_and_kilonewtons_get_a_word() {
         let source: DesignSource = "lin-4.1".parse().unwrap();
@@ -142,6 +143,11 @@ mod tests {
         assert_eq!(said(744.0 / per_contact), None);
         for force in [744.0, 14.8 / per_contact] {
             assert!(said(force).unwrap().contains("axial_preload"), "{force}");
+        }
+        for (name, parameters, _) in crate::files::built_in() {
+            let screw = BallScrew::new(parameters).unwrap();
+            let preload = Preload::of(&screw, epas_friction::defaults::CLEARANCE);
+            assert_eq!(unusual(&screw, preload), None, "{name}");
         }
         for (load, refused) in [(13.0, true), (13e3, false), (500.0, false), (-1.0, false)] {
             let message = check_limit(&screw, load, 71).err();

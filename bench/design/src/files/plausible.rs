@@ -34,6 +34,10 @@ const WIDEST: f32 = 0.7;
 const DEGREES: f32 = 2.0;
 /// Largest speed of a trace over the limit of its design: above a limit by less, the limit is too tight; above it by more, the unit is another.
 pub const FASTEST: f64 = 1.5;
+/// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).
+pub const FASTEST_BALLS: f64 = 16.0;
+/// Longest travel, m.
+pub const LONGEST: f64 = 3.0;
 /// Turns of a circuit: its return takes the balls back after 1 to 5.
 const TURNS: [f32; 2] = [0.1, 10.0];
 
