@@ -71,6 +71,11 @@ impl Track {
     }
 }
 
+#[inline]
+fn positions(balls: &[Ball]) -> impl ExactSizeIterator<Item = u32> + '_ {
+    balls.iter().map(|ball| ball.position)
+}
+
 pub(crate) const BALL_BYTES: usize = Ball::BYTES;
 
 /// Up to `N` balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
@@ -175,7 +180,7 @@ impl<const N: usize> Train<N> {
     /// Position of each ball, from the rear one to the front one, in units of 2^-32 of the track's length.
     #[inline]
     pub fn positions(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
-        self.press.balls().iter().map(|ball| ball.position)
+        positions(self.press.balls())
     }
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
