@@ -18,7 +18,6 @@ const SOURCE: &str = include_str!("../c99/gear.c");
 /// Elements of the memory in C.
 pub const ELEMENTS: usize = 8;
 
-/// Numbers in a line.
 const IN_A_LINE: usize = 4;
 
 /// What the memory of a screw follows from.
