@@ -20,7 +20,6 @@ const SOURCE: &str = include_str!("../c99/gear.c");
 /// Elements of the memory in C.
 pub const ELEMENTS: usize = 8;
 
-/// Numbers in a line.
 const IN_A_LINE: usize = 4;
 
 /// Elements of a memory in C.

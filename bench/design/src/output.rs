@@ -12,7 +12,6 @@ use crate::caged::{Block, CagedDesign, NODES};
 use crate::uncaged::{self, UncagedBlock};
 use crate::{Failure, Folded, FoldedUncaged};
 
-/// Words in a line of a text form.
 const IN_A_LINE: usize = 6;
 
 /// Words and forms of a block, and of what was folded with its certificate.
@@ -205,7 +204,6 @@ impl FoldedUncaged {
 
 struct Declared {
     doc: String,
-    /// Its type.
     of: String,
     /// The function that makes it from the words.
     from: &'static str,

@@ -15,7 +15,6 @@ const MARK: &[u8] = "\u{feff}".as_bytes();
 pub struct Lines<R> {
     input: BufReader<R>,
     buffer: Vec<u8>,
-    /// Whether the next line is the first.
     first: bool,
 }
 
@@ -28,7 +27,6 @@ pub enum Line<'a> {
 }
 
 impl<R: Read> Lines<R> {
-    /// Lines of `input`.
     pub fn new(input: R) -> Self {
         Self {
             input: BufReader::new(input),

@@ -75,7 +75,6 @@ impl ScrewNumbers {
         poisson_ratio: 0.28,
     };
 
-    /// Refuses what is out of range.
     pub(crate) fn check(&self) -> Result<(), BadField> {
         in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
         in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;

@@ -56,7 +56,6 @@ pub struct Progress {
     done: AtomicU64,
     start: Instant,
     terminal: bool,
-    /// When the next line is due.
     due: Mutex<Instant>,
 }
 

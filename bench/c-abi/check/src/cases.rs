@@ -17,7 +17,6 @@ use crate::places::{says, with_comma};
 use crate::setups;
 use crate::tools::Outcome;
 
-/// Ticks of each scene.
 const TICKS: u32 = 256;
 
 /// Numbers from 0 to 1, the same at each run (xorshift).

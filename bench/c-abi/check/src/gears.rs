@@ -7,7 +7,6 @@ use epas_friction::scene::FoldedBall;
 
 use crate::tools::Outcome;
 
-/// Words in a line.
 const IN_A_LINE: usize = 6;
 
 /// A gear of the firmware: its constants, and in the same file its words.

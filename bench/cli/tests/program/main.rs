@@ -105,7 +105,6 @@ fn words(line: &str) -> Vec<&str> {
     line.split(' ').collect()
 }
 
-/// A run of a line in a folder.
 fn told(folder: &Path, line: &str) -> Run {
     run_in(folder, &words(line), "")
 }
@@ -117,7 +116,6 @@ fn ran(folder: &Path, line: &str) -> Run {
     run
 }
 
-/// Names of what a folder has.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();
     let mut names: Vec<_> = entries

@@ -69,7 +69,6 @@ request! {
 }
 
 impl Request {
-    /// Refuses what is out of range.
     pub(super) fn check(&self) -> Result<(), BadField> {
         self.screw.check()?;
         in_range("contact_angle", self.contact_angle, 0.25, 1.3)?;
