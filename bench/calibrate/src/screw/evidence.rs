@@ -47,7 +47,8 @@ impl Evidence {
         Self {
             directions: [share(1.0), share(-1.0)],
             speeds: [tenth(1), tenth(9)],
-            reversals: reversals(&motion.position, reversal_distance(trace)),
+            // Back by some steps of the sensor.
+            reversals: reversals(&motion.position, 3.0 * trace.resolution),
             range: ends(&motion.position).map_or(0.0, |[low, high]| high - low),
             acceleration: (square / samples).sqrt() / acceleration_noise.max(f64::MIN_POSITIVE),
             load: trace.load.as_deref().and_then(ends),
@@ -81,11 +82,6 @@ impl Evidence {
     pub fn temperature_range(&self) -> f64 {
         self.temperature.map_or(0.0, |[low, high]| high - low)
     }
-}
-
-/// Least distance that a motion goes back for a reversal: some steps of the sensor.
-fn reversal_distance(trace: &Trace) -> f64 {
-    3.0 * trace.resolution
 }
 
 fn ends(list: &[f64]) -> Option<[f64; 2]> {

@@ -120,18 +120,20 @@ const FRICTION: (f64, f64) = (1e-3, 0.6);
 /// Smallest largest load of a ball, N.
 const LEAST_LARGEST: f64 = 16.0;
 
-/// Resistances for which the contacts' rolling is solved apart: their torque is in proportion.
+/// Resistances for which the contacts' rolling is solved apart.
 const HYSTERESIS: f64 = 0.1;
 const DRAG: f64 = 1.0;
 
 const POINTS: usize = 4;
 
-/// What of a ball's torque is told apart.
+/// With which rolling resistance a ball is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
+    /// That of the design.
     Whole,
     Hysteresis,
     Drag,
+    None,
 }
 
 /// Numbers of the friction coefficient and of the gap on the grid.
@@ -302,16 +304,15 @@ impl Grid {
         (first_gap, gap_weights): (i32, &[f64]),
     ) -> Result<Vec<(Arc<Curves>, usize, f64)>, ReferenceError> {
         let rolling = &caged.rolling_resistance;
+        // Each torque of rolling is in proportion to its resistance.
+        let hysteresis = f64::from(rolling.hysteresis_loss) - self.rolling.hysteresis_loss;
+        let drag = f64::from(rolling.lubricant_drag) - self.rolling.lubricant_drag;
+        let (hysteresis, drag) = (hysteresis / HYSTERESIS, drag / DRAG);
         let parts = [
             (Part::Whole, 1.0),
-            (
-                Part::Hysteresis,
-                f64::from(rolling.hysteresis_loss) - self.rolling.hysteresis_loss,
-            ),
-            (
-                Part::Drag,
-                f64::from(rolling.lubricant_drag) - self.rolling.lubricant_drag,
-            ),
+            (Part::Hysteresis, hysteresis),
+            (Part::Drag, drag),
+            (Part::None, -hysteresis - drag),
         ];
         let mut nodes = Vec::new();
         for (part, share) in parts.into_iter().filter(|(_, share)| *share != 0.0) {
@@ -339,45 +340,19 @@ impl Grid {
     }
 
     fn solve(&self, (part, friction, gap): Node) -> Result<Curves, ReferenceError> {
-        let whole = |rolling: RollingResistance| self.solved_with(friction, gap, rolling);
-        let difference = |with: RollingResistance, over: f64| {
-            let [with, without] = [whole(with)?, whole(RollingResistance::NONE)?];
-            let mut sides = with.into_iter().zip(without).map(|(with, without)| {
-                let pairs = with.iter().zip(&without);
-                pairs
-                    .map(|(with, without)| (with - without) / over)
-                    .collect()
-            });
-            Ok([
-                sides.next().unwrap_or_default(),
-                sides.next().unwrap_or_default(),
-            ])
+        let none = RollingResistance::NONE;
+        let rolling = match part {
+            Part::Whole => self.rolling,
+            Part::Hysteresis => RollingResistance {
+                hysteresis_loss: HYSTERESIS,
+                ..none
+            },
+            Part::Drag => RollingResistance {
+                lubricant_drag: DRAG,
+                ..none
+            },
+            Part::None => none,
         };
-        match part {
-            Part::Whole => whole(self.rolling),
-            Part::Hysteresis => difference(
-                RollingResistance {
-                    hysteresis_loss: HYSTERESIS,
-                    lubricant_drag: 0.0,
-                },
-                HYSTERESIS,
-            ),
-            Part::Drag => difference(
-                RollingResistance {
-                    hysteresis_loss: 0.0,
-                    lubricant_drag: DRAG,
-                },
-                DRAG,
-            ),
-        }
-    }
-
-    fn solved_with(
-        &self,
-        friction: i32,
-        gap: i32,
-        rolling: RollingResistance,
-    ) -> Result<Curves, ReferenceError> {
         let (least, largest) = FRICTION;
         let friction = self.ratio.powi(friction).clamp(least, largest);
         let clearance = self.gap * self.spacing.gap.powi(gap);
