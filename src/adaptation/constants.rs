@@ -299,7 +299,6 @@ const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES]
     ]
 }
 
-/// Least and largest of the five numbers; none of one that is held.
 const fn bounds(
     configuration: &AdaptationConfiguration,
     deviations: &[f32; ESTIMATES],

@@ -204,7 +204,6 @@ pub struct LoadLaw<const NODES: usize> {
 }
 
 impl<const NODES: usize> LoadLaw<NODES> {
-    /// Checks the law.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         const { assert!(NODES > 0) };
         let [least, most] = self.ends;
