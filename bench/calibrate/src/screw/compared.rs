@@ -9,7 +9,7 @@ use crate::answer::ModelScore;
 use crate::estimator::record::Record;
 use crate::fit::problem::{Evaluation, Model, Parameter, Scale, Separable};
 use crate::laws::{BREAKAWAY, Cost, Law, Scales};
-use crate::models::{Entry, LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
+use crate::models::{LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
 use crate::trace::Trace;
 use crate::without_design::placed;
 use epas_page::failure::Failure;
@@ -57,22 +57,16 @@ pub fn models(
             None => side.without_memory(),
         };
         let (fitted, unseen) = (model(&fitted), other.as_ref().map(model));
-        let entry = Entry {
-            name,
-            cost,
-            fitted: &fitted,
-            unseen: unseen.as_ref().map(|model| model as &dyn Separable),
-        };
-        (name.to_string(), score(&entry).map(|(score, _)| score))
+        let unseen = unseen.as_ref().map(|model| model as &dyn Separable);
+        let scored = score((name, cost), &fitted, unseen);
+        (name.to_string(), scored.map(|(score, _)| score))
     };
     let mut scores: Vec<_> = laws.into_iter().chain([without]).map(scored).collect();
-    let own = Entry {
-        name: WITH_MEMORY,
-        cost: cost_with_memory(screw),
-        fitted: &fitted.problem,
-        unseen: other.as_ref().map(|side| &side.problem as &dyn Separable),
-    };
-    scores.push((WITH_MEMORY.into(), score(&own).map(|(score, _)| score)));
+    let unseen = other.as_ref();
+    let unseen = unseen.map(|side| &side.problem as &dyn Separable);
+    let own = (WITH_MEMORY, cost_with_memory(screw));
+    let scored = score(own, &fitted.problem, unseen);
+    scores.push((WITH_MEMORY.into(), scored.map(|(score, _)| score)));
     scores
 }
 
