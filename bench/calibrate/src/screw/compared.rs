@@ -7,7 +7,7 @@ use super::problem::{ScrewProblem, flank_sum};
 use super::stages::Prepared;
 use crate::answer::ModelScore;
 use crate::estimator::record::Record;
-use crate::fit::problem::{Evaluation, Model, Parameter, Scale, Separable};
+use crate::fit::problem::{Evaluation, Model, Parameter, Separable};
 use crate::laws::{BREAKAWAY, Cost, Law, Scales};
 use crate::models::{LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
 use crate::trace::Trace;
@@ -99,14 +99,13 @@ impl Side<'_> {
         if load.is_some() {
             let [low, high] = PRELOADS.map(|part| part * screw.largest_load);
             let preload = screw.axial_preload(&self.told.values);
-            nonlinear.push(Parameter {
-                name: "axial_preload",
-                unit: "N",
-                start: preload.max(low).min(high),
-                low,
-                high,
-                scale: Scale::Logarithmic,
-            });
+            let start = preload.max(low).min(high);
+            nonlinear.push(Parameter::positive(
+                "axial_preload",
+                "N",
+                start,
+                [low, high],
+            ));
         }
         let friction = move |values: &[f64]| {
             let Ok(friction) = law.friction(&scales, values) else {
@@ -129,14 +128,12 @@ impl Side<'_> {
         let of_screw = self.problem.nonlinear().iter();
         let of_screw = of_screw.filter(|of| matches!(of.name, "friction" | "preload"));
         let mut nonlinear: Vec<Parameter> = of_screw.cloned().collect();
-        nonlinear.push(Parameter {
-            name: "reversal_speed",
-            unit: "rad/s",
+        nonlinear.push(Parameter::positive(
+            "reversal_speed",
+            "rad/s",
             start,
-            low,
-            high,
-            scale: Scale::Logarithmic,
-        });
+            [low, high],
+        ));
         let names: Vec<&'static str> = nonlinear.iter().map(|of| of.name).collect();
         let (_, speed, load) = self.problem.signals();
         let friction = move |parameters: &[f64]| {
