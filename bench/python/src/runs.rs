@@ -4,9 +4,9 @@ use epas_cli::bindings::{
     self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Row, Scene,
     ScrewSample, TickOutputs, Trace, Uncaged,
 };
+use epas_rig::Rig;
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::Rig;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -392,8 +392,7 @@ pub fn reference_measured_trace<'py>(
             return Err(refused(py, Refused::value("course", message)));
         }
     };
-    let run =
-        move |_: &Stop| Rig::new(Parameters::default())?.run(&course, seed);
+    let run = move |_: &Stop| Rig::new(Parameters::default())?.run(&course, seed);
     let trace = interruptible(py, run)?.map_err(|error| refused(py, error))?;
     let dict = PyDict::new(py);
     for (name, values) in [

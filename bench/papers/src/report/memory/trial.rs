@@ -7,9 +7,9 @@ use epas_calibrate::screw::{Request, calibrate};
 use epas_calibrate::trace::Trace;
 use epas_calibrate::trace::columns::{Frame, from_reader};
 use epas_design::files::{Design, DesignSource};
+use epas_rig::Rig;
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
-use epas_rig::Rig;
 use rayon::prelude::*;
 
 use epas_bench::report::draw::table;
