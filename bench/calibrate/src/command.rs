@@ -115,10 +115,10 @@ fn rated_torque(text: &str) -> Result<f64, String> {
 }
 
 fn parameter(text: &str) -> Result<String, String> {
-    if names().any(|name| name == text) {
+    let known: Vec<&str> = names().collect();
+    if known.contains(&text) {
         return Ok(text.into());
     }
-    let known: Vec<&str> = names().collect();
     Err(format!("allowed: {}", known.join(", ")))
 }
 

@@ -8,7 +8,7 @@ use epas_friction::law::{Elements, SlidingLimits};
 
 use crate::bristle::{bristle, stribeck};
 use crate::estimator::stretches::of_position;
-use crate::fit::problem::{Parameter, Scale};
+use crate::fit::problem::Parameter;
 use crate::mechanism::Step;
 use crate::trace::channels::range;
 
@@ -78,25 +78,14 @@ impl Law {
     pub fn parameters(&self, scales: &Scales, units: [&'static str; 2]) -> Vec<Parameter> {
         let [length, speed] = units;
         let shortest = scales.shortest();
-        let speeds = |name, start: f64| Parameter {
-            name,
-            unit: speed,
-            start: start * scales.speed,
-            low: 1e-3 * scales.speed,
-            high: 2.0 * scales.speed,
-            scale: Scale::Logarithmic,
+        let speeds = |name, start: f64| {
+            let bounds = [1e-3, 2.0].map(|part| part * scales.speed);
+            Parameter::positive(name, speed, start * scales.speed, bounds)
         };
         let mut parameters = Vec::new();
         if self.level != Level::Constant {
-            parameters.push(Parameter {
-                name: SHARE_AT_REST,
-                unit: "",
-                // Near a law without: from a share below 1 the best level of a screw under grease would be none.
-                start: 1.1,
-                low: 0.1,
-                high: 3.0,
-                scale: Scale::Logarithmic,
-            });
+            // It starts near a law without: from a share below 1 the best level of a screw under grease would be none.
+            parameters.push(Parameter::positive(SHARE_AT_REST, "", 1.1, [0.1, 3.0]));
             parameters.push(speeds(HALF_SHARE_SPEED, 0.1));
         }
         match self.passage {
@@ -104,25 +93,14 @@ impl Law {
             Passage::Speed => parameters.push(speeds(REVERSAL_SPEED, 0.01)),
             Passage::Dahl | Passage::LuGre | Passage::Elements => {
                 // A motion of some hundred steps of the sensor may be all before sliding.
-                parameters.push(Parameter {
-                    name: BREAKAWAY,
-                    unit: length,
-                    start: (20.0 * shortest).min((1e-3 * scales.travel).max(3.0 * shortest)),
-                    low: shortest,
-                    high: (0.1 * scales.travel).max(100.0 * shortest),
-                    scale: Scale::Logarithmic,
-                });
+                let start = (20.0 * shortest).min((1e-3 * scales.travel).max(3.0 * shortest));
+                let bounds = [shortest, (0.1 * scales.travel).max(100.0 * shortest)];
+                parameters.push(Parameter::positive(BREAKAWAY, length, start, bounds));
             }
         }
         if self.passage == Passage::LuGre {
-            parameters.push(Parameter {
-                name: BRISTLE_TIME,
-                unit: "s",
-                start: 0.1 * scales.tick,
-                low: 1e-3 * scales.tick,
-                high: 100.0 * scales.tick,
-                scale: Scale::Logarithmic,
-            });
+            let [start, low, high] = [0.1, 1e-3, 100.0].map(|ticks| ticks * scales.tick);
+            parameters.push(Parameter::positive(BRISTLE_TIME, "s", start, [low, high]));
         }
         parameters
     }

@@ -54,19 +54,17 @@ pub const OWN: [Law; 2] = {
     ]
 };
 
-pub struct Entry<'a> {
-    pub name: &'a str,
-    pub cost: Cost,
-    pub fitted: &'a dyn Separable,
-    pub unseen: Option<&'a dyn Separable>,
-}
-
-pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
-    let count = entry.fitted.target().len();
+/// A model fitted to a problem and scored on another one, or fitted to the first part of it and scored on the rest.
+pub fn score(
+    (name, cost): (&str, Cost),
+    whole: &dyn Separable,
+    unseen: Option<&dyn Separable>,
+) -> Result<(ModelScore, Found), Failure> {
+    let count = whole.target().len();
     let border = (FITTED * count as f64) as usize;
-    let parts = [0..border, border..count].map(|rows| part(entry.fitted, rows));
-    let (fitted, unseen): (&dyn Separable, &dyn Separable) = match entry.unseen {
-        Some(unseen) => (entry.fitted, unseen),
+    let parts = [0..border, border..count].map(|rows| part(whole, rows));
+    let (fitted, unseen): (&dyn Separable, &dyn Separable) = match unseen {
+        Some(unseen) => (whole, unseen),
         None => (&parts[0], &parts[1]),
     };
     let found = fit(fitted)?;
@@ -78,7 +76,7 @@ pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
     let sure = uncertainty(fitted, &found);
     let rows = sure.effective_rows;
     let score = ModelScore {
-        name: entry.name.into(),
+        name: name.into(),
         relative_error: seen_error,
         relative_error_unseen: Some(unseen_error),
         relative_error_inverse: seen_error,
@@ -88,8 +86,8 @@ pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
         information_criterion: rows * 2.0 * rms(&found.residual).ln()
             + parameters as f64 * rows.ln(),
         parameters,
-        cycles: cycles(entry.cost),
-        cycles_estimated: matches!(entry.cost, Cost::Estimated(_)),
+        cycles: cycles(cost),
+        cycles_estimated: matches!(cost, Cost::Estimated(_)),
         values: sure.intervals.iter().map(Estimate::from).collect(),
     };
     Ok((score, found))

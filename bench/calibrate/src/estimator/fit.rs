@@ -171,16 +171,27 @@ fn total(pieces: &[Piece], count: usize) -> (DMatrix<f64>, DVector<f64>) {
     sums
 }
 
+/// Sizes of columns, and their products over these; a column of zeros has the size 1.
+pub fn normal(columns: &[Vec<f64>]) -> (Vec<f64>, DMatrix<f64>) {
+    let count = columns.len();
+    let mut normal = DMatrix::zeros(count, count);
+    for i in 0..count {
+        for j in 0..=i {
+            normal[(i, j)] = dot(&columns[i], &columns[j]);
+            normal[(j, i)] = normal[(i, j)];
+        }
+    }
+    let sizes = normal
+        .diagonal()
+        .map(|square: f64| if square > 0.0 { square.sqrt() } else { 1.0 });
+    let scaled = DMatrix::from_fn(count, count, |i, j| normal[(i, j)] / (sizes[i] * sizes[j]));
+    (sizes.iter().copied().collect(), scaled)
+}
+
 /// What solves for the coefficients of columns that make some rows.
 pub fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
-    let sizes: Vec<f64> = columns
-        .iter()
-        .map(|column| dot(column, column).sqrt())
-        .collect();
+    let (sizes, normal) = normal(columns);
     let count = columns.len();
-    let normal = DMatrix::from_fn(count, count, |i, j| {
-        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
-    });
     let inverse = normal.try_inverse()?;
     Some(move |rows: &[f64]| {
         let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);

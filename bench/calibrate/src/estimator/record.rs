@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::kernel::Kernel;
 use super::stretches::{Stretch, of_position, of_speed};
 use crate::trace::Trace;
-use crate::trace::channels::{median, resolution};
+use crate::trace::channels::{median, moments, resolution};
 
 /// Shares of a kernel's half-width: within which a step of the sensor must come, and over which the sign of a load is told.
 pub const QUARTER: usize = 4;
@@ -195,14 +195,10 @@ impl Record {
     /// Median size of the speed where it moves, rad/s or m/s.
     pub fn speed_of_motion(&self) -> f64 {
         let kernel = Kernel::new(3, self.tick);
-        let mut sizes: Vec<f64> = self
-            .stretches(12)
-            .iter()
-            .flat_map(|stretch| stretch.first..=stretch.last)
-            .map(|sample| kernel.at(self.order(1), &self.motion, sample).abs())
-            .collect();
-        sizes.sort_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+        let stretches = self.stretches(12);
+        let samples = stretches.iter().flat_map(|of| of.first..=of.last);
+        let size = |sample| kernel.at(self.order(1), &self.motion, sample).abs();
+        median(samples.map(size).collect())
     }
 
     /// The one speed, rad/s or m/s, at which it moves, and the samples in which it does: the middle four fifths, where a start and a stop
@@ -214,9 +210,7 @@ impl Record {
         let tenth = count / 10;
         let of = |range: Range<usize>| -> Option<(f64, Range<usize>)> {
             let part = speed.get(range.clone())?;
-            let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
-            let square: f64 = part.iter().map(|w| (w - mean).powi(2)).sum();
-            let deviation = (square / part.len().max(1) as f64).sqrt();
+            let (mean, deviation) = moments(part.iter().copied());
             (part.len() > 2 && deviation < ONE_SPEED * mean.abs()).then_some((mean, range))
         };
         let middle = of(tenth..count - tenth)?;

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::fit::dot;
 use super::kernel::Kernel;
 use super::record::{QUARTER, Record};
+use crate::trace::channels::median;
 
 const ROWS: usize = 3;
 
@@ -78,9 +79,7 @@ impl Rows {
             }
             next_piece += pieces + 1;
         }
-        let mut ways: Vec<f64> = strokes.iter().map(|(_, way)| *way).collect();
-        ways.sort_by(f64::total_cmp);
-        rows.stroke = ways[ways.len() / 2];
+        rows.stroke = median(strokes.iter().map(|(_, way)| *way).collect());
         Some(rows)
     }
 

@@ -642,10 +642,11 @@ pub fn strongest_wave(places: &[f64], residual: &[f64]) -> Option<(f64, f64)> {
         return None;
     }
     let mean = residual.iter().sum::<f64>() / residual.len().max(1) as f64;
+    let residual: Vec<f64> = residual.iter().map(|rest| rest - mean).collect();
     let mut sums = vec![(0.0, 0.0_f64); bins];
-    for (place, rest) in places.iter().zip(residual) {
+    for (place, rest) in places.iter().zip(&residual) {
         let bin = (((place - low) / stroke * bins as f64) as usize).min(bins - 1);
-        sums[bin].0 += rest - mean;
+        sums[bin].0 += rest;
         sums[bin].1 += 1.0;
     }
     let mut line: Vec<Complex<f64>> = sums
@@ -662,27 +663,22 @@ pub fn strongest_wave(places: &[f64], residual: &[f64]) -> Option<(f64, f64)> {
     if powers[top] < HEIGHT * median(powers[first..].to_vec()) {
         return None;
     }
-    let total: f64 = residual.iter().map(|rest| (rest - mean).powi(2)).sum();
+    let total = dot(&residual, &residual);
     let near = (-10..=10).map(|part| (top as f64 + 0.1 * f64::from(part)) * PI / stroke);
-    near.map(|wave| (wave, explained(places, residual, mean, wave) / total))
+    near.map(|wave| (wave, explained(places, &residual, wave) / total))
         .max_by(|one, other| one.1.total_cmp(&other.1))
 }
 
 /// Squares that a sine and a cosine of the position take from a residual.
-fn explained(places: &[f64], residual: &[f64], mean: f64, wave: f64) -> f64 {
-    let [mut ss, mut sc, mut cc, mut sr, mut cr] = [0.0; 5];
-    for (place, rest) in places.iter().zip(residual) {
-        let (sine, cosine) = (wave * place).sin_cos();
-        let rest = rest - mean;
-        ss += sine * sine;
-        sc += sine * cosine;
-        cc += cosine * cosine;
-        sr += sine * rest;
-        cr += cosine * rest;
-    }
-    let determinant = ss * cc - sc * sc;
-    if determinant <= 0.0 {
-        return 0.0;
-    }
-    (cc * sr * sr - 2.0 * sc * sr * cr + ss * cr * cr) / determinant
+fn explained(places: &[f64], residual: &[f64], wave: f64) -> f64 {
+    let column = |of: fn(f64) -> f64| places.iter().map(|place| of(wave * place)).collect();
+    let columns: [Vec<f64>; 2] = [f64::sin, f64::cos].map(column);
+    let taken = solver(&columns).map(|solver| {
+        let values = solver(residual);
+        let parts = values.iter().zip(&columns);
+        parts
+            .map(|(value, column)| value * dot(column, residual))
+            .sum()
+    });
+    taken.unwrap_or(0.0)
 }

@@ -22,6 +22,23 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// One that is positive, within two bounds.
+    pub const fn positive(
+        name: &'static str,
+        unit: &'static str,
+        start: f64,
+        [low, high]: [f64; 2],
+    ) -> Self {
+        Self {
+            name,
+            unit,
+            start,
+            low,
+            high,
+            scale: Scale::Logarithmic,
+        }
+    }
+
     /// One that enters linearly: from a least value on, minus infinity where there is none.
     pub const fn linear(name: &'static str, unit: &'static str, low: f64) -> Self {
         Self {

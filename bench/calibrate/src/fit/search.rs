@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 use super::problem::{Evaluation, Parameter, Scale, Separable, inner, outer};
-use crate::estimator::fit::{dot, rms};
+use crate::estimator::fit::{dot, normal, rms};
 use epas_page::failure::Failure;
 
 const SHIFT: f64 = 2.0;
@@ -263,19 +263,7 @@ fn within_bounds(
     parameters: &[Parameter],
 ) -> Vec<f64> {
     let count = columns.len();
-    let sizes: Vec<f64> = columns
-        .iter()
-        .map(|column| dot(column, column).sqrt())
-        // A column of zeros stays one: the product of two smallest numbers would be none.
-        .map(|size| if size > 0.0 { size } else { 1.0 })
-        .collect();
-    let mut normal = DMatrix::zeros(count, count);
-    for i in 0..count {
-        for j in 0..=i {
-            normal[(i, j)] = dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j]);
-            normal[(j, i)] = normal[(i, j)];
-        }
-    }
+    let (sizes, normal) = normal(columns);
     let right = DVector::from_fn(count, |k, _| dot(&columns[k], target.as_slice()) / sizes[k]);
     let mut held: Vec<Option<f64>> = vec![None; count];
     loop {

@@ -4,17 +4,10 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
-use crate::fit::problem::{Evaluation, Model, Parameter, Scale};
+use crate::fit::problem::{Evaluation, Model, Parameter};
 
 pub fn positive(name: &'static str, start: f64, low: f64, high: f64) -> Parameter {
-    Parameter {
-        name,
-        unit: "1",
-        start,
-        low,
-        high,
-        scale: Scale::Logarithmic,
-    }
+    Parameter::positive(name, "1", start, [low, high])
 }
 
 pub fn free(name: &'static str) -> Parameter {

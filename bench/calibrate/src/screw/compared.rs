@@ -7,9 +7,9 @@ use super::problem::{ScrewProblem, flank_sum};
 use super::stages::Prepared;
 use crate::answer::ModelScore;
 use crate::estimator::record::Record;
-use crate::fit::problem::{Evaluation, Model, Parameter, Scale, Separable};
+use crate::fit::problem::{Evaluation, Model, Parameter, Separable};
 use crate::laws::{BREAKAWAY, Cost, Law, Scales};
-use crate::models::{Entry, LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
+use crate::models::{LITERATURE, WITH_MEMORY, WITHOUT_MEMORY, score};
 use crate::trace::Trace;
 use crate::without_design::placed;
 use epas_page::failure::Failure;
@@ -57,22 +57,16 @@ pub fn models(
             None => side.without_memory(),
         };
         let (fitted, unseen) = (model(&fitted), other.as_ref().map(model));
-        let entry = Entry {
-            name,
-            cost,
-            fitted: &fitted,
-            unseen: unseen.as_ref().map(|model| model as &dyn Separable),
-        };
-        (name.to_string(), score(&entry).map(|(score, _)| score))
+        let unseen = unseen.as_ref().map(|model| model as &dyn Separable);
+        let scored = score((name, cost), &fitted, unseen);
+        (name.to_string(), scored.map(|(score, _)| score))
     };
     let mut scores: Vec<_> = laws.into_iter().chain([without]).map(scored).collect();
-    let own = Entry {
-        name: WITH_MEMORY,
-        cost: cost_with_memory(screw),
-        fitted: &fitted.problem,
-        unseen: other.as_ref().map(|side| &side.problem as &dyn Separable),
-    };
-    scores.push((WITH_MEMORY.into(), score(&own).map(|(score, _)| score)));
+    let unseen = other.as_ref();
+    let unseen = unseen.map(|side| &side.problem as &dyn Separable);
+    let own = (WITH_MEMORY, cost_with_memory(screw));
+    let scored = score(own, &fitted.problem, unseen);
+    scores.push((WITH_MEMORY.into(), scored.map(|(score, _)| score)));
     scores
 }
 
@@ -105,14 +99,13 @@ impl Side<'_> {
         if load.is_some() {
             let [low, high] = PRELOADS.map(|part| part * screw.largest_load);
             let preload = screw.axial_preload(&self.told.values);
-            nonlinear.push(Parameter {
-                name: "axial_preload",
-                unit: "N",
-                start: preload.max(low).min(high),
-                low,
-                high,
-                scale: Scale::Logarithmic,
-            });
+            let start = preload.max(low).min(high);
+            nonlinear.push(Parameter::positive(
+                "axial_preload",
+                "N",
+                start,
+                [low, high],
+            ));
         }
         let friction = move |values: &[f64]| {
             let Ok(friction) = law.friction(&scales, values) else {
@@ -135,14 +128,12 @@ impl Side<'_> {
         let of_screw = self.problem.nonlinear().iter();
         let of_screw = of_screw.filter(|of| matches!(of.name, "friction" | "preload"));
         let mut nonlinear: Vec<Parameter> = of_screw.cloned().collect();
-        nonlinear.push(Parameter {
-            name: "reversal_speed",
-            unit: "rad/s",
+        nonlinear.push(Parameter::positive(
+            "reversal_speed",
+            "rad/s",
             start,
-            low,
-            high,
-            scale: Scale::Logarithmic,
-        });
+            [low, high],
+        ));
         let names: Vec<&'static str> = nonlinear.iter().map(|of| of.name).collect();
         let (_, speed, load) = self.problem.signals();
         let friction = move |parameters: &[f64]| {

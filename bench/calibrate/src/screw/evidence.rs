@@ -1,5 +1,6 @@
 //! What a trace of a screw can tell, before anything is fitted.
 
+use crate::estimator::fit::rms;
 use crate::estimator::record::Smoothed;
 use crate::estimator::stretches::of_position;
 use crate::trace::Trace;
@@ -29,28 +30,21 @@ impl Evidence {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;
         let share = |direction: f64| {
-            let moving = motion
-                .speed
-                .iter()
-                .filter(|&speed| direction * speed > MOVES * speed_noise);
+            let speeds = motion.speed.iter();
+            let moving = speeds.filter(|&speed| direction * speed > MOVES * speed_noise);
             moving.count() as f64 / samples
         };
-        let mut sizes: Vec<f64> = motion
-            .speed
-            .iter()
-            .map(|speed| speed.abs())
-            .filter(|&speed| speed > MOVES * speed_noise)
-            .collect();
+        let sizes = motion.speed.iter().map(|speed| speed.abs());
+        let mut sizes: Vec<f64> = sizes.filter(|size| *size > MOVES * speed_noise).collect();
         sizes.sort_by(f64::total_cmp);
         let tenth = |place: usize| sizes.get(sizes.len() * place / 10).copied().unwrap_or(0.0);
-        let square: f64 = motion.acceleration.iter().map(|a| a * a).sum();
         Self {
             directions: [share(1.0), share(-1.0)],
             speeds: [tenth(1), tenth(9)],
             // Back by some steps of the sensor.
             reversals: reversals(&motion.position, 3.0 * trace.resolution),
             range: ends(&motion.position).map_or(0.0, |[low, high]| high - low),
-            acceleration: (square / samples).sqrt() / acceleration_noise.max(f64::MIN_POSITIVE),
+            acceleration: rms(&motion.acceleration) / acceleration_noise.max(f64::MIN_POSITIVE),
             load: trace.load.as_deref().and_then(ends),
             temperature: trace.temperature.as_deref().and_then(ends),
         }

@@ -20,6 +20,7 @@ use crate::fit::problem::{Scale, Separable, inner};
 use crate::fit::search::{Found, fit, fit_roughly, slopes};
 use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
+use crate::trace::channels::median;
 use epas_page::failure::Failure;
 
 const LEAST_HALF: usize = 4;
@@ -159,9 +160,8 @@ impl<'a> Prepared<'a> {
             }
         }
         let (found, values, rows) = best.ok_or_else(few)?;
-        let mut sizes: Vec<f64> = found.residual.iter().map(|left| left.abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let limit = OUTLIER * 1.4826 * sizes[sizes.len() / 2];
+        let sizes = found.residual.iter().map(|left| left.abs());
+        let limit = OUTLIER * 1.4826 * median(sizes.collect());
         let beyond = rows.centres.iter().zip(&found.residual);
         let beyond: Vec<Range<usize>> = beyond
             .filter(|(_, left)| left.abs() > limit)

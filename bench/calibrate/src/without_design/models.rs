@@ -5,7 +5,7 @@ use crate::estimator::words::strongest_wave;
 use crate::fit::problem::Separable;
 use crate::fit::search::{Found, at_bound, fit};
 use crate::laws::{Cost, Law, Level, Passage};
-use crate::models::{self, Entry, FITTED, LITERATURE, OWN};
+use crate::models::{self, FITTED, LITERATURE, OWN};
 use crate::without_design::closed_loop::{Course, Loop};
 use crate::without_design::controller::SeenController;
 use crate::without_design::slide::{Beside, Prepared, Slide};
@@ -112,12 +112,8 @@ fn score(
 ) -> Result<ModelScore, Failure> {
     let slide = Slide::new(fitted.0, law, beside);
     let other = unseen.map(|other| (other, Slide::new(other.0, law, beside)));
-    let (mut score, found) = models::score(&Entry {
-        name,
-        cost: law.cost,
-        fitted: &slide,
-        unseen: other.as_ref().map(|(_, slide)| slide as &dyn Separable),
-    })?;
+    let unseen = other.as_ref().map(|(_, slide)| slide as &dyn Separable);
+    let (mut score, found) = models::score((name, law.cost), &slide, unseen)?;
     if let Some(closed) = course(fitted, &slide, &found)? {
         score.relative_error = closed.relative_error;
         score.position_error = Some(closed.position_error);
