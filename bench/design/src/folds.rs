@@ -69,14 +69,14 @@ impl<T: Clone> Folds<T> {
         if let Some(found) = self.get(digest) {
             return found;
         }
-        // Not locked: others go on meanwhile.
+        // Not locked: others go on meanwhile, and who of them folds the same keeps what was there first.
         match fold() {
             Ok(block) => {
-                self.keep(digest, block.clone());
-                Ok(block)
+                let found = self.room().entry(digest).or_insert(Ok(block)).clone();
+                found.map_err(Failure::Domain)
             }
             Err(failure) => {
-                self.insert(digest, Err(failure.to_string()));
+                self.room().insert(digest, Err(failure.to_string()));
                 Err(failure)
             }
         }
@@ -84,15 +84,16 @@ impl<T: Clone> Folds<T> {
 
     /// Keeps what was folded from inputs with this digest.
     pub fn keep(&self, digest: u64, block: T) {
-        self.insert(digest, Ok(block));
+        self.room().insert(digest, Ok(block));
     }
 
-    fn insert(&self, digest: u64, found: Result<T, String>) {
+    /// With room for one more.
+    fn room(&self) -> MutexGuard<'_, HashMap<u64, Result<T, String>>> {
         let mut folded = self.folded();
         if folded.len() >= self.most {
             folded.clear();
         }
-        folded.insert(digest, found);
+        folded
     }
 }
 
