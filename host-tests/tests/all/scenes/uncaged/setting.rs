@@ -155,14 +155,15 @@ fn beyond_the_model_is_flagged_in_its_tick() {
         }),
         ..plain
     };
-    let loads = [
-        -1.001 * knots[3].load,
-        -0.999 * knots[4].load,
-        -1.001 * knots[4].load,
-        -0.999 * knots[3].load,
-        0.5 * (knots[3].load + knots[4].load),
-    ]
-    .map(|load| load * SCREW_BALLS as f32);
+    let (fourth, fifth) = (knots[3].load, knots[4].load);
+    let ends = [1.001 * fourth, 0.999 * fifth, 1.001 * fifth, 0.999 * fourth];
+    let law = &unheld.folded.law;
+    let held =
+        |branch| ends.map(|load| law.holds_forces(load, branch, law.interval(BALL.friction)));
+    assert_eq!([held(0), held(1)], [[true; 4], [false, false, true, true]]);
+    let [first, last, above, below] = ends;
+    let loads = [-first, -last, -above, -below, 0.5 * (fourth + fifth)]
+        .map(|load| load * SCREW_BALLS as f32);
     assert_eq!(flagged(&unheld, &loads), [false; 5]);
     // Not in the first tick, whose balls stand apart.
     let loads: Vec<f32> = loads.into_iter().flat_map(|load| [load; 400]).collect();
