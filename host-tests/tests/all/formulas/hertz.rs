@@ -105,9 +105,13 @@ fn bad_radii_and_moduli_are_refused_by_name() {
             ("relative_radius_1", |p, v| p.0 = v, BAD),
             ("relative_radius_2", |p, v| p.1 = v, BAD),
             ("relative_radius_2", |p, _| (p.0, p.1) = (1e-3, 101.0), &[]),
+            ("relative_radius_2", |p, _| (p.0, p.1) = (101.0, 1e-3), &[]),
             ("contact_modulus", |p, v| p.2 = v, BAD),
         ],
     );
+    for (first, second) in [(1e-3, 99.0), (99.0, 1e-3)] {
+        assert!(HertzContact::checked(first, second, 1e11).is_ok());
+    }
     for bad in [f64::NAN, f64::INFINITY, 0.0, -1.0, 1e-30, 1e30] {
         assert!(Hertz::new(bad, 0.01, 1e11).is_err());
     }

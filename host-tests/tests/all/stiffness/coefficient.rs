@@ -481,7 +481,7 @@ fn errors_name_the_field() {
         &[
             ("temperature", |(cold, _, _), v| cold.0 = v, &[40.0, 373.15]),
             ("viscosity", |(cold, _, _), v| cold.1 = v, &[0.001]),
-            ("viscosity", |(cold, warm, _), v| (*cold, *warm) = ((313.15, v), (323.15, 0.1)), &[1e3]),
+            ("viscosity", |(cold, warm, _), v| (*cold, *warm) = ((313.15, v), (323.15, 0.1)), &[3.3, 1e3]),
             ("pour_point", |(_, _, pour), v| *pour = v, &[330.0]),
         ],
     );
