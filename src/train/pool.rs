@@ -219,7 +219,7 @@ impl Cluster {
 pub(super) const ROUNDING: f32 = 1e-6;
 
 /// A ball with its actual speed, and the force on the ball in front.
-pub(super) struct Settled {
+pub(super) struct BallState {
     pub(super) neighbours: Neighbours,
     pub(super) force: f32,
     pub(super) touches: bool,
@@ -242,7 +242,7 @@ pub(crate) struct Pressing {
 pub(super) fn settle(
     balls: &mut [Ball],
     foremost: usize,
-    mut each: impl FnMut(usize, &mut Ball, &Settled),
+    mut each: impl FnMut(usize, &mut Ball, &BallState),
 ) -> Pressing {
     let last = balls.len().wrapping_sub(1);
     let mut index = foremost;
@@ -287,7 +287,7 @@ pub(super) fn settle(
         }
         let behind = f32::from_bits(bits as u32);
         let rubs_behind = ball.rubs() * behind;
-        let settled = Settled {
+        let settled = BallState {
             neighbours: Neighbours {
                 speed: ball.speed + change,
                 forces: force + behind,

@@ -1,6 +1,6 @@
 //! The balls of a train, which of them press on each other, and how hard: one exact pass.
 
-use super::pool::{Pressing, ROUNDING, Settled, pool, settle, take_out};
+use super::pool::{BallState, Pressing, ROUNDING, pool, settle, take_out};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Port, Refusal, Stored};
 
@@ -392,7 +392,10 @@ impl<const N: usize> Press<N> {
 
     /// Gives each ball its actual speed and force, and passes it on. Remainders of more than a part of the largest force are taken out.
     #[inline(always)]
-    pub(super) fn settle(&mut self, mut each: impl FnMut(usize, &mut Ball, &Settled)) -> Pressing {
+    pub(super) fn settle(
+        &mut self,
+        mut each: impl FnMut(usize, &mut Ball, &BallState),
+    ) -> Pressing {
         let foremost = self.foremost();
         let balls = self.balls_mut();
         let pressing = settle(balls, foremost, |index, ball, settled| {

@@ -15,7 +15,6 @@ use epas_calibrate::outputs::firmware;
 use epas_design::files::train::no_row;
 use epas_design::files::{Design, DesignSource};
 use epas_design::{caged_scene as caged, folds, uncaged_scene as uncaged};
-use epas_friction::law::coefficient::CoefficientLaw;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
 use epas_page::progress::Progress;
@@ -300,13 +299,11 @@ fn made(design: &Design, scene: Option<Scene>, remembers: bool) -> Result<Made, 
     match chosen(table, scene) {
         Scene::Caged => {
             // What a calibrated coefficient takes, as `calibrate --constants` folds it.
-            let fold = match firmware::law(design)? {
-                Some(law) if !table.says_friction() || remembers => {
-                    let ends =
-                        CoefficientLaw::new(&law).map_err(|error| failure(error.to_string()))?;
-                    caged::fold_for(design, ends.extremes()).map_err(failure)?
-                }
-                _ => table.fold(design).map_err(of_fold)?,
+            let (least, largest) = firmware::coefficients(design)?;
+            let fold = if least < largest && (remembers || !table.says_friction()) {
+                caged::fold_for(design, (least, largest)).map_err(failure)?
+            } else {
+                table.fold(design).map_err(of_fold)?
             };
             let folded = caged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
             Ok(Made::Caged(Box::new(folded)))

@@ -44,7 +44,8 @@ impl Elements {
     }
 
     /// Angle of full sliding at the reference load, rad.
-    fn breakaway(&self) -> f32 {
+    #[must_use]
+    pub fn breakaway(&self) -> f32 {
         match self {
             Self::Proportional(elements) => elements.breakaway(),
             Self::LoadExact(elements) => elements.breakaway(),

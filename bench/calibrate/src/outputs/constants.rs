@@ -4,9 +4,8 @@
 use std::fmt::Write as _;
 
 use epas_design::Folded;
-use epas_friction::law::coefficient::CoefficientLaw;
 
-use crate::outputs::firmware::Numbers;
+use crate::outputs::firmware::{Numbers, coefficients};
 use crate::page::shown::one_line;
 use crate::screw::friction::{COLDEST, ElementsKind};
 use epas_design::caged_scene::{certified, fold_for};
@@ -17,11 +16,7 @@ use epas_page::progress::Progress;
 pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let numbers = Numbers::of(design)?;
     let friction = design.caged.friction;
-    let coefficients = match &numbers.law {
-        Some(law) => CoefficientLaw::new(law)?.extremes(),
-        None => (friction, friction),
-    };
-    let fold = fold_for(design, coefficients)
+    let fold = fold_for(design, coefficients(design)?)
         .map_err(|message| Failure::Data(format!("{}: {message}", design.name)))?;
     let progress = Progress::of_fold();
     let folded = certified(&fold, &|share| progress.share(share))

@@ -1,11 +1,11 @@
 //! What firmware takes of a calibrated design: the screw with the values that a fit found, and the law of its friction coefficient.
 
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, RollingDrag};
-use epas_friction::law::memory::Hysteresis;
 use epas_friction::{Error, defaults};
 
 use crate::screw::friction::{ElementsKind, Reference};
 use crate::screw::quantities::Values;
+use epas_design::c99::Elements;
 use epas_design::files::Design;
 use epas_design::files::calibration::REFERENCE_TEMPERATURE;
 use epas_page::failure::Failure;
@@ -41,22 +41,21 @@ impl Numbers {
         })
     }
 
+    /// Elements of the memory, of the kind that was calibrated.
+    pub fn elements(&self, reference: &Reference) -> Result<Elements, Error> {
+        let (screw, values) = (&self.screw, &self.values);
+        Ok(match screw.elements {
+            ElementsKind::Proportional => {
+                Elements::Proportional(screw.proportional(values, reference)?)
+            }
+            ElementsKind::LoadExact => Elements::LoadExact(screw.load_exact(values, reference)?),
+            ElementsKind::Preloaded => Elements::Preloaded(screw.preloaded(values, reference)?),
+        })
+    }
+
     /// Turn that the balls go back with, over two, rad.
     pub fn play(&self, reference: &Reference) -> Result<f32, Error> {
-        Ok(match self.screw.elements {
-            ElementsKind::Proportional => {
-                let elements = self.screw.proportional(&self.values, reference)?;
-                elements.breakaway()
-            }
-            ElementsKind::LoadExact => {
-                let elements = self.screw.load_exact(&self.values, reference)?;
-                elements.breakaway()
-            }
-            ElementsKind::Preloaded => {
-                let elements = self.screw.preloaded(&self.values, reference)?;
-                elements.breakaway()
-            }
-        })
+        Ok(self.elements(reference)?.breakaway())
     }
 }
 
@@ -90,6 +89,17 @@ pub fn law(design: &Design) -> Result<Option<CoefficientParameters>, Failure> {
     law()
         .map(Some)
         .map_err(|error| Failure::Data(format!("{}: calibration: {error}", design.name)))
+}
+
+/// Least and largest friction coefficient of a design with its calibration.
+pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
+    let friction = design.caged.friction;
+    let Some(law) = law(design)? else {
+        return Ok((friction, friction));
+    };
+    let (least, largest) = CoefficientLaw::new(&law)?.extremes();
+    // The law's own rounding may leave the design's coefficient out.
+    Ok((least.min(friction), largest.max(friction)))
 }
 
 /// A design as a fit has it, with what its calibration tells.

@@ -6,7 +6,6 @@ use epas_calibrate::outputs::firmware::{self, Numbers};
 use epas_design::Folded;
 use epas_design::c99::{Elements, Files, Memory};
 use epas_design::files::Design;
-use epas_design::files::calibration::ElementsName;
 use epas_friction::law::coefficient::CoefficientParameters;
 use epas_friction::{Error, defaults};
 
@@ -42,25 +41,9 @@ fn memory(folded: &Folded, design: &Design) -> Result<Memory, Failure> {
     let constant =
         || CoefficientParameters::constant(design.caged.friction, defaults::COEFFICIENT.viscosity);
     let law = firmware::law(design)?.unwrap_or_else(constant);
-    let Numbers {
-        screw,
-        values,
-        reference,
-        ..
-    } = Numbers::of(design)?;
-    let (elements, reference_load) = if let Some(reference) = reference {
-        let elements = match screw.elements {
-            ElementsName::Proportional => screw
-                .proportional(&values, &reference)
-                .map(Elements::Proportional),
-            ElementsName::LoadExact => screw
-                .load_exact(&values, &reference)
-                .map(Elements::LoadExact),
-            ElementsName::Preloaded => screw
-                .preloaded(&values, &reference)
-                .map(Elements::Preloaded),
-        };
-        (elements, reference.load)
+    let numbers = Numbers::of(design)?;
+    let (elements, reference_load) = if let Some(reference) = &numbers.reference {
+        (numbers.elements(reference), reference.load)
     } else {
         // In the middle of the domain, by ratios.
         let [least, largest] = folded.fold.axial_load;

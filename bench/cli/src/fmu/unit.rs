@@ -10,7 +10,7 @@ use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
-use crate::simulate::remembering::coefficients;
+use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{keep_words, words};
 use epas_design::files::train::{LinearDesign, no_row};
 use epas_design::files::{self as designs, Design, DesignSource};
@@ -229,7 +229,7 @@ fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure>
         Source::Screw(design) if !scene.has_row() => {
             let own = (design.caged.friction, design.caged.friction);
             let coefficients = if scene.has_memory() {
-                coefficients(design)?
+                firmware::coefficients(design)?
             } else {
                 own
             };

@@ -11,7 +11,7 @@ use super::manoeuvre::{Manoeuvre, trace};
 use super::memory::{self, MemorySettings};
 use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
-use super::remembering::{Remembering, coefficients, remembering};
+use super::remembering::{Remembering, remembering};
 use super::samples::ScrewSample;
 use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
@@ -173,7 +173,11 @@ pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure>
         return Ok(None);
     }
     let own = (design.caged.friction, design.caged.friction);
-    let asked = if by_law { coefficients(design)? } else { own };
+    let asked = if by_law {
+        firmware::coefficients(design)?
+    } else {
+        own
+    };
     let fold = caged::fold_for(design, asked).map_err(Failure::Data);
     fold.map(Some).map_err(|failure| failure.of(&design.name))
 }

@@ -2,6 +2,7 @@
 //! speed and direction, and backlash.
 
 use epas_design::CagedDesign;
+use epas_design::c99::Elements as Calibrated;
 use epas_design::caged::{Block, NODES};
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
@@ -17,7 +18,6 @@ use crate::model::{Built, HostScene, Model, Sensor};
 use epas_calibrate::outputs::firmware::{self, ELEMENTS, Numbers};
 use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
-use epas_design::files::calibration::ElementsName;
 use epas_page::failure::Failure;
 
 /// A design with a sensor, its step, rad, and a mean size of the load, N.
@@ -63,19 +63,8 @@ pub fn remembering<A: Sensor>(
 pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
     Ok(CagedScene::with_coefficients(
         design,
-        coefficients(design)?,
+        firmware::coefficients(design)?,
     )?)
-}
-
-/// Least and largest friction coefficient of a design with its calibration.
-pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
-    let friction = design.caged.friction;
-    let Some(law) = firmware::law(design)? else {
-        return Ok((friction, friction));
-    };
-    let (least, largest) = CoefficientLaw::new(&law)?.extremes();
-    // The law's own rounding may leave the design's coefficient out.
-    Ok((least.min(friction), largest.max(friction)))
 }
 
 fn law(design: &Design, numbers: &Numbers) -> Result<CoefficientLaw, Error> {
@@ -120,23 +109,23 @@ impl<A: Sensor> Wanted<'_, A> {
             let model = calibrated_model::<S, _, _>(scene, elements, angle, law);
             return Ok(remembered.around(model.map_err(refused)?));
         };
-        let Numbers { screw, values, .. } = &numbers;
         let load = reference.load;
-        let made = match screw.elements {
-            ElementsName::Proportional => screw
-                .proportional(values, reference)
-                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
-            ElementsName::LoadExact => screw
-                .load_exact(values, reference)
-                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
-            ElementsName::Preloaded => screw
-                .preloaded(values, reference)
-                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
+        let elements = numbers.elements(reference).map_err(refused)?;
+        let made = match elements {
+            Calibrated::Proportional(made) => {
+                calibrated_model::<S, _, _>(scene, (made, load), angle, law)
+            }
+            Calibrated::LoadExact(made) => {
+                calibrated_model::<S, _, _>(scene, (made, load), angle, law)
+            }
+            Calibrated::Preloaded(made) => {
+                calibrated_model::<S, _, _>(scene, (made, load), angle, law)
+            }
         };
-        let proportional = screw.elements == ElementsName::Proportional;
+        let proportional = matches!(elements, Calibrated::Proportional(_));
         Ok(Remembering {
             model: made.map_err(refused)?,
-            lines: lines(values.breakaway_angle, reference.torque),
+            lines: lines(numbers.values.breakaway_angle, reference.torque),
             proportional_at: proportional.then_some(load),
         })
     }
