@@ -10,8 +10,8 @@ use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
-    Clearance, DeviationMap, FrictionModel, Harmonic, Inputs, Limits, LoadShares,
-    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
+    Clearance, DeviationMap, FrictionModel, Inputs, Limits, LoadShares, RollingResistance,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
@@ -26,6 +26,60 @@ use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding}
 /// Slack of the track, where a case does not say its length, over the distance of two balls that touch: as such screws are filled, half of all pairs
 /// press.
 const SLACK: f64 = 0.1;
+
+/// How the contact angles of a groove deviate: waves of orders 1 to 8 over a period of some turns.
+#[derive(Clone, Copy, Debug)]
+pub struct Deviation {
+    /// Largest deviation, rad.
+    pub largest: f64,
+    /// Turns of the period.
+    pub turns: u16,
+    /// Amplitudes of sine and cosine of each order, over the largest deviation.
+    pub orders: [[f64; 2]; 8],
+}
+
+impl Deviation {
+    /// So many waves in a turn, 1 to 8.
+    #[must_use]
+    pub const fn wave(amplitude: f64, order: usize) -> Self {
+        let mut orders = [[0.0; 2]; 8];
+        orders[order - 1][0] = 1.0;
+        Self {
+            largest: amplitude,
+            turns: 1,
+            orders,
+        }
+    }
+
+    /// Samples of a map, rad: between them it is linear.
+    fn samples(&self) -> [f64; 64] {
+        std::array::from_fn(|sample| {
+            let phase = TAU * sample as f64 / 64.0;
+            let waves = (1..)
+                .map(|order| f64::from(order) * phase)
+                .zip(&self.orders);
+            self.largest
+                * waves
+                    .map(|(at, [sine, cosine])| sine * at.sin() + cosine * at.cos())
+                    .sum::<f64>()
+        })
+    }
+
+    /// The map of the scene, which lives as long as the program: in firmware it lies in flash.
+    fn map(&self) -> Result<&'static DeviationMap, String> {
+        let samples = self.samples().map(|deviation| deviation as f32);
+        let map =
+            DeviationMap::from_samples(self.turns, &samples).map_err(|error| error.to_string())?;
+        Ok(Box::leak(Box::new(map)))
+    }
+
+    fn exact(&self) -> GrooveDeviation {
+        GrooveDeviation::Samples {
+            turns: self.turns.into(),
+            values: self.samples().into(),
+        }
+    }
+}
 
 /// What is asked of one screw. Lengths in m, angles in rad, forces in N.
 #[derive(Clone, Copy, Debug)]
@@ -44,10 +98,10 @@ pub struct Case {
     pub track: Option<f64>,
     /// Part of the track that carries load.
     pub loaded: f64,
-    /// Amplitude of the screw's deviation, and waves in a turn.
-    pub screw: (f64, u8),
+    /// Deviation of the screw's groove.
+    pub screw: Deviation,
     /// The same of the nut.
-    pub nut: (f64, u8),
+    pub nut: Deviation,
     /// Turns of the nut a second, negative backward.
     pub speed: f64,
     /// Turns of the nut that are followed.
@@ -68,8 +122,8 @@ impl Case {
         load_per_ball: 50.0,
         track: None,
         loaded: 0.95,
-        screw: (TAU / 360.0, 2),
-        nut: (0.5 * TAU / 360.0, 3),
+        screw: Deviation::wave(TAU / 360.0, 2),
+        nut: Deviation::wave(0.5 * TAU / 360.0, 3),
         speed: 1.0,
         turns: 2.0,
         states: 720,
@@ -110,9 +164,12 @@ pub struct Moment {
     pub nut_angle: f64,
     /// Torque of the grooves and between balls, N m.
     pub torques: [f64; 2],
+    /// Error of their sum, over the exact one; NaN without an exact solution.
+    pub error: f64,
     /// Whether the scene flags this state.
     pub flagged: bool,
-    pressing: usize,
+    /// Pairs that press in the exact screw and in the scene.
+    pub pressing: [usize; 2],
 }
 
 /// What both found.
@@ -146,29 +203,8 @@ impl Comparison {
     /// Mean number of pairs that press in the exact screw.
     #[must_use]
     pub fn pressing(&self) -> f64 {
-        let pairs = self.course.iter().map(|moment| moment.pressing);
+        let pairs = self.course.iter().map(|moment| moment.pressing[0]);
         pairs.sum::<usize>() as f64 / self.course.len() as f64
-    }
-}
-
-/// A wave that lives as long as the program: in firmware it lies in flash.
-fn wave((amplitude, order): (f64, u8)) -> Result<&'static DeviationMap, String> {
-    let harmonic = Harmonic {
-        order,
-        cosine: 0.0,
-        sine: amplitude as f32,
-    };
-    let map = DeviationMap::from_harmonics(1, &[harmonic]).map_err(|error| error.to_string())?;
-    Ok(Box::leak(Box::new(map)))
-}
-
-/// The same for the exact screw: linear between as many samples as the map has.
-fn samples((amplitude, order): (f64, u8)) -> GrooveDeviation {
-    GrooveDeviation::Samples {
-        turns: 1.0,
-        values: (0..64)
-            .map(|sample| amplitude * (TAU * f64::from(sample * u32::from(order)) / 64.0).sin())
-            .collect(),
     }
 }
 
@@ -182,8 +218,8 @@ fn ring(case: &Case, balls: usize) -> ElasticRing {
         balls,
         turns: case.loaded * turns,
         return_length: (1.0 - case.loaded) * turns * TAU * path,
-        screw_deviation: samples(case.screw),
-        nut_deviation: samples(case.nut),
+        screw_deviation: case.screw.exact(),
+        nut_deviation: case.nut.exact(),
         load_shares: vec![],
         chord: true,
         places: vec![],
@@ -219,8 +255,8 @@ impl<const N: usize> Followed<N> {
             balls: N as u16,
             turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
-            screw_deviation: wave(case.screw)?,
-            nut_deviation: wave(case.nut)?,
+            screw_deviation: case.screw.map()?,
+            nut_deviation: case.nut.map()?,
             load_shares: LoadShares::EVEN,
             tick: case.ticks().1 as f32,
         })
@@ -290,8 +326,8 @@ impl Case {
                     friction_torque: 1e4,
                 },
             },
-            deviations: [self.screw.0, self.nut.0]
-                .map(|amplitude| (1.0001 * amplitude.abs() as f32).max(LEAST_DEVIATION)),
+            deviations: [self.screw.largest, self.nut.largest]
+                .map(|largest| (1.0001 * largest.abs() as f32).max(LEAST_DEVIATION)),
         });
         let [least, _] = fold.axial_load;
         let largest = MARGIN * self.load_per_ball.abs() as f32;
@@ -376,8 +412,9 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
         comparison.course.push(Moment {
             nut_angle: state.nut_angle,
             torques: [outputs.groove_torque, outputs.ball_torque].map(f64::from),
-            pressing: state.pressing(),
+            error: f64::from(outputs.friction_torque) / state.torque() - 1.0,
             flagged,
+            pressing: [state.pressing(), outputs.contacts.into()],
         });
         comparison.flagged += usize::from(flagged);
         comparison.failed += usize::from(!solved);
@@ -390,38 +427,4 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_law_is_shared() {
-        let law = Case::LIN.law().unwrap();
-        let other = Case {
-            load_per_ball: -200.0,
-            speed: 20.0,
-            loaded: 1.0,
-            ..Case::LIN
-        };
-        assert!(std::ptr::eq(law, other.law().unwrap()));
-        let wrong = Case {
-            clearance: 1.0,
-            ..Case::LIN
-        };
-        let refused = compare::<4>(&wrong).unwrap_err();
-        assert!(refused.contains("clearance"), "{refused}");
-    }
-
-    #[test]
-    fn the_scene_is_near_the_exact_screw() {
-        let found = compare::<4>(&Case {
-            turns: 0.05,
-            states: 10,
-            ..Case::LIN
-        })
-        .unwrap();
-        assert_eq!((found.compared, found.failed), (11, 0));
-        assert_eq!(found.course.len(), 11);
-        let [largest, rms, _] = found.torque.relative();
-        assert!(rms <= largest && largest < 0.02, "{largest} {rms}");
-    }
-}
+mod tests;

@@ -15,7 +15,7 @@ use row::STIFFENING;
 pub(crate) use numbers::PowerSums;
 pub use numbers::{
     BallNumbers, FreeMotion, LARGEST_WORK, NEIGHBOUR_KNOTS, NeighbourNumbers, POWERS, RUBBINGS,
-    RubbedNode,
+    RubbedNode, SPEED_POWERS,
 };
 pub use row::{BallOfRow, NeighbourLaw, PressedTorques};
 

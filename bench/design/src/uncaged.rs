@@ -25,7 +25,7 @@ use fit::{Branch, Fit, Numbers};
 pub use ring::PressedRow;
 
 /// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
-pub const ALGORITHM: u32 = 5;
+pub const ALGORITHM: u32 = 6;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 3;

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 use rayon::iter::Either;
 use rayon::prelude::*;
 
-use epas_bench::exact_ring::{Case, Comparison, Off, compare};
+use epas_bench::exact_ring::{Case, Comparison, Deviation, Off, compare};
 use epas_bench::report::draw::{table, told};
 use epas_bench::report::statistics::Errors;
 use epas_bench::timing::Spread;
@@ -58,9 +58,9 @@ fn case(number: u32) -> Case {
     let mut sign = || between(-1.0, 1.0).signum();
     let signs = [sign(), sign()];
     let mut wave = || {
-        (
+        Deviation::wave(
             between(-3.0, 3.0) / 360.0 * TAU,
-            between(1.0, 4.999).floor() as u8,
+            between(1.0, 4.999).floor() as usize,
         )
     };
     let waves = [wave(), wave()];

@@ -3,8 +3,11 @@
 use crate::error::{Error, Range, attempt, in_range};
 use crate::train::LARGEST_FREE_SPEED;
 
-/// Powers of the two deviations: `1, s, n, s^2, s n, n^2`.
+/// Powers of the two deviations to the second degree: `1, s, n, s^2, s n, n^2`.
 pub const POWERS: usize = 6;
+
+/// To the third: these, then `s^3, s^2 n, s n^2, n^3`.
+pub const SPEED_POWERS: usize = 10;
 
 /// Least and largest impedance over `mu W`.
 pub(super) const IMPEDANCES: Range = Range::new(0.01, 1e3);
@@ -21,7 +24,7 @@ pub const LARGEST_WORK: f32 = 4.0;
 /// `x` the ball's speed less its free speed, and the nominal speed `v` against the nut, m per unit of nut speed:
 ///
 /// ```text
-/// free speed       u = u_0 + u_1 s + u_2 n + u_3 s^2 + u_4 s n + u_5 n^2
+/// free speed       u = u_0 + u_1 s + u_2 n + u_3 s^2 + u_4 s n + u_5 n^2 + u_6 s^3 + u_7 s^2 n + u_8 s n^2 + u_9 n^3
 /// net push         P = mu W (z_0 + z_1 s + z_2 n) x
 /// friction torque  T = mu W (t_0 + ... + t_5 n^2 + c x) + w P x v / 2
 /// ```
@@ -29,7 +32,7 @@ pub const LARGEST_WORK: f32 = 4.0;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallNumbers {
     /// Free speed less the nominal one, over the nominal speed against the nut: its powers of the deviations.
-    pub free: [f32; POWERS],
+    pub free: [f32; SPEED_POWERS],
     /// Impedance: the force that changes the speed by one; powers `1, s, n`.
     pub impedance: [f32; 3],
     /// Friction torque on the nut at the free speed, m.
@@ -55,7 +58,7 @@ pub struct FreeMotion {
 impl BallNumbers {
     /// A ball that loses nothing and holds nothing.
     pub const NONE: Self = Self {
-        free: [0.0; POWERS],
+        free: [0.0; SPEED_POWERS],
         impedance: [0.0; 3],
         torque: [0.0; POWERS],
         slope: 0.0,
@@ -88,7 +91,7 @@ impl BallNumbers {
     #[inline(always)]
     pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
         FreeMotion {
-            speed: powers(&self.free, screw, nut),
+            speed: cubic(&self.free, screw, nut),
             impedance: line(&self.impedance, [screw, nut]),
             torque: powers(&self.torque, screw, nut),
         }
@@ -107,7 +110,7 @@ impl BallNumbers {
     /// Mean free speed over all deviations.
     #[inline(always)]
     pub fn held_speed(&self) -> f32 {
-        // The mean of a square from -1 to 1 is a third.
+        // The mean of a square from -1 to 1 is a third, that of an odd power none.
         self.free[0] + (self.free[3] + self.free[5]) * (1.0 / 3.0)
     }
 
@@ -274,6 +277,17 @@ fn blended<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f3
 #[inline(always)]
 fn powers([a, s, n, ss, sn, nn]: &[f32; POWERS], screw: f32, nut: f32) -> f32 {
     a + screw * (s + screw * ss + nut * sn) + nut * (n + nut * nn)
+}
+
+#[inline(always)]
+fn cubic(
+    [a, s, n, ss, sn, nn, sss, ssn, snn, nnn]: &[f32; SPEED_POWERS],
+    screw: f32,
+    nut: f32,
+) -> f32 {
+    let by_screw = s + screw * (ss + screw * sss + nut * ssn) + nut * sn;
+    let by_nut = n + nut * (nn + nut * nnn + screw * snn);
+    a + screw * by_screw + nut * by_nut
 }
 
 #[inline(always)]

@@ -20,11 +20,11 @@ use crate::scene::words::{HEADER, Layout, float, floats, word};
 /// First word of a block: `EPAU` as bytes, least significant first.
 const MAGIC: u32 = 0x5541_5045;
 
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Numbers that do not depend on the nodes; words of a knot, and of a node.
 const COMMON: usize = 12;
-const KNOT: usize = 18;
+const KNOT: usize = 22;
 const NEIGHBOUR_KNOT: usize = 32;
 const BRANCH: usize = KNOTS * KNOT;
 const NEIGHBOUR_BRANCH: usize = NEIGHBOUR_KNOTS * NEIGHBOUR_KNOT;
@@ -192,10 +192,10 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
                 float(words, next),
                 BallNumbers {
                     free: floats(words, at + 1),
-                    impedance: floats(words, at + 7),
-                    torque: floats(words, at + 10),
-                    slope: float(words, at + 16),
-                    work: float(words, at + 17),
+                    impedance: floats(words, at + 11),
+                    torque: floats(words, at + 14),
+                    slope: float(words, at + 20),
+                    work: float(words, at + 21),
                 },
             );
             number += 1;

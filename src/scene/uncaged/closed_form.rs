@@ -148,9 +148,10 @@ const fn numbers(
         at[2][s][n] = ball.groove_torque * per_load;
         corner += 1;
     }
+    let [u, u_s, u_n, u_ss, u_sn, u_nn] = parabola(&at[0]);
     let [z, z_screw, z_nut, ..] = parabola(&at[1]);
     BallNumbers {
-        free: parabola(&at[0]),
+        free: [u, u_s, u_n, u_ss, u_sn, u_nn, 0.0, 0.0, 0.0, 0.0],
         impedance: [z, z_screw, z_nut],
         torque: parabola(&at[2]),
         slope: 0.0,

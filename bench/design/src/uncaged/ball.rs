@@ -1,6 +1,6 @@
 //! The exact ball of a design, free and held, over the box of deviations and along the loads: what a law is fitted to.
 
-use epas_friction::ball::pressed::POWERS;
+use epas_friction::ball::pressed::{POWERS, SPEED_POWERS};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::held_ball::{
     AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
@@ -401,10 +401,11 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
     }
 }
 
-/// Powers `1, s, n, s^2, s n, n^2` of the deviations at a point of the grid.
-pub(super) fn powers(point: usize) -> [f64; POWERS] {
+/// Powers of the deviations at a point of the grid, in the order of [`BallNumbers`](epas_friction::ball::pressed::BallNumbers).
+pub(super) fn powers(point: usize) -> [f64; SPEED_POWERS] {
     let [s, n] = deviations(point);
-    [1.0, s, n, s * s, s * n, n * n]
+    let [ss, sn, nn] = [s * s, s * n, n * n];
+    [1.0, s, n, ss, sn, nn, s * ss, s * sn, s * nn, n * nn]
 }
 
 /// The straight line over the box of deviations that is nearest to a polynomial of the second degree through values at points of the grid.

@@ -1,10 +1,10 @@
 //! The numbers of a law at its knots, by least squares over the exact balls.
 //!
-//! Free speed and impedance are fitted together. What a train makes of them is a force, `z (v - u)` at a speed `v` near the held one, so that
-//! the errors of the force at the held speed count most, and those of the free speed beside them. The impedance is therefore the secant from
-//! the free speed to the held one, not the tangent at either.
+//! Free speed and impedance are fitted together. What a train makes of them is a force, `z (v - u)` at a speed `v` near the held one, and where
+//! balls meet and part, which is the way that differences of free speeds add up to. So errors of the force at the held speed and of the free
+//! speed count alike. The impedance is therefore the secant from the free speed to the held one, not the tangent at either.
 
-use epas_friction::ball::pressed::{KNOTS, LARGEST_WORK, POWERS};
+use epas_friction::ball::pressed::{KNOTS, LARGEST_WORK, POWERS, SPEED_POWERS};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::Column;
@@ -18,9 +18,6 @@ const TORQUE: f64 = 3e-4;
 const FORCE: f64 = 3e-3;
 const SPEED: f64 = 1e-2;
 
-/// Weight of the free speed's errors beside those of the force at the held speed.
-const BESIDE: f64 = 0.3;
-
 /// Gauss-Newton steps for free speeds and impedances together.
 const STEPS: usize = 8;
 
@@ -33,12 +30,12 @@ const MOST_WORK: f64 = 0.999 * LARGEST_WORK as f64;
 
 /// Powers of an impedance, and numbers that are fitted together.
 const SLOPES: usize = 3;
-const TOGETHER: usize = POWERS + SLOPES;
+const TOGETHER: usize = SPEED_POWERS + SLOPES;
 
 /// Numbers at a knot, all over `mu W` but speeds and work; see `BallNumbers`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Numbers {
-    pub free: [f64; POWERS],
+    pub free: [f64; SPEED_POWERS],
     pub impedance: [f64; SLOPES],
     pub torque: [f64; POWERS],
     pub slope: f64,
@@ -62,19 +59,18 @@ pub(super) struct Errors {
     pub force: f64,
 }
 
-/// Powers of all points, and the polynomials of least squares through values there.
+/// The first powers of all points, and the polynomials of least squares through values there.
 struct Grid {
-    powers: SMatrix<f64, POINTS, POWERS>,
+    powers: DMatrix<f64>,
     /// Upper triangle of `powers`, and its orthonormal columns.
-    triangle: SMatrix<f64, POWERS, POWERS>,
-    columns: SMatrix<f64, POINTS, POWERS>,
+    triangle: DMatrix<f64>,
+    columns: DMatrix<f64>,
 }
 
 impl Grid {
-    fn new() -> Self {
-        let powers: SMatrix<f64, POINTS, POWERS> =
-            SMatrix::from_fn(|point, power| powers(point)[power]);
-        let factors = powers.qr();
+    fn new(count: usize) -> Self {
+        let powers = DMatrix::from_fn(POINTS, count, |point, power| powers(point)[power]);
+        let factors = powers.clone().qr();
         Self {
             powers,
             triangle: factors.r(),
@@ -83,14 +79,16 @@ impl Grid {
     }
 
     /// Coordinates of the polynomial through values: the sum of their squares is that of its values.
-    fn coordinates(&self, values: impl Fn(usize) -> f64) -> SVector<f64, POWERS> {
-        self.columns.transpose() * SVector::<f64, POINTS>::from_fn(|point, _| values(point))
+    fn coordinates(&self, values: impl Fn(usize) -> f64) -> DVector<f64> {
+        let values = DVector::from_fn(POINTS, |point, _| values(point));
+        self.columns.tr_mul(&values)
     }
 
-    fn coefficients(&self, coordinates: &SVector<f64, POWERS>) -> SVector<f64, POWERS> {
-        self.triangle
-            .solve_upper_triangular(coordinates)
-            .unwrap_or_default()
+    /// Coefficients of the polynomial through values; zero where the powers are not independent, which they are.
+    fn coefficients(&self, values: impl Fn(usize) -> f64) -> DVector<f64> {
+        let coordinates = self.coordinates(values);
+        let found = self.triangle.solve_upper_triangular(&coordinates);
+        found.unwrap_or_else(|| DVector::zeros(coordinates.len()))
     }
 }
 
@@ -104,7 +102,9 @@ pub(super) struct Fit<'a> {
     weights: &'a [f64],
     /// Speed against the nut, m per unit of nut speed.
     against_nut: f64,
-    grid: Grid,
+    /// Polynomials of free speeds, and of all else.
+    cubic: Grid,
+    square: Grid,
     /// Root mean squares of the forces and of the speeds' distance from the held one, and mean torques, of each load.
     forces: Vec<f64>,
     spreads: Vec<f64>,
@@ -118,7 +118,8 @@ impl<'a> Fit<'a> {
             samples,
             weights,
             against_nut,
-            grid: Grid::new(),
+            cubic: Grid::new(SPEED_POWERS),
+            square: Grid::new(POWERS),
             forces: of(&|sample| rms(sample.points.iter().map(|point| point.force))),
             spreads: of(&|sample| rms(sample.points.iter().map(|p| p.free - sample.held))),
             torques: of(&|sample| {
@@ -138,7 +139,7 @@ impl<'a> Fit<'a> {
             .map(|knot| {
                 let numbers = Numbers {
                     free: std::array::from_fn(|power| speeds[knot][power]),
-                    impedance: std::array::from_fn(|power| speeds[knot][POWERS + power]),
+                    impedance: std::array::from_fn(|power| speeds[knot][SPEED_POWERS + power]),
                     torque: torques[knot].into(),
                     slope: gains[knot][0],
                     work: gains[knot][1],
@@ -158,28 +159,31 @@ impl<'a> Fit<'a> {
     fn columns(&self) -> Vec<Column> {
         let (mut columns, count) = (Vec::new(), POINTS as f64);
         type Value = fn(&BallSample, usize) -> f64;
-        let families: [(Value, &[f64], f64); 3] = [
+        let families: [(Value, &Grid, &[f64], f64); 3] = [
             (
                 |sample, point| sample.points[point].free,
+                &self.cubic,
                 &self.spreads,
                 SPEED,
             ),
             (
                 |sample, point| sample.points[point].force,
+                &self.square,
                 &self.forces,
                 FORCE,
             ),
             (
                 |sample, point| sample.points[point].torque_held,
+                &self.square,
                 &self.torques,
                 TORQUE,
             ),
         ];
-        for (value, sizes, tolerance) in families {
-            let all: Vec<SVector<f64, POWERS>> = self
+        for (value, grid, sizes, tolerance) in families {
+            let all: Vec<DVector<f64>> = self
                 .samples
                 .iter()
-                .map(|sample| self.grid.coordinates(|point| value(sample, point)))
+                .map(|sample| grid.coordinates(|point| value(sample, point)))
                 .collect();
             // What polynomials leave of a load's errors no knot takes away: such a load needs them less.
             let weight = |load: usize| {
@@ -188,7 +192,7 @@ impl<'a> Fit<'a> {
                 let left = (whole - all[load].norm_squared()).max(0.0) / count;
                 self.weights[load] / ((sizes[load] * tolerance).powi(2) + left)
             };
-            for power in 0..POWERS {
+            for power in 0..grid.columns.ncols() {
                 columns.push(Column {
                     values: all.iter().map(|coordinates| coordinates[power]).collect(),
                     weights: (0..all.len()).map(|load| weight(load) / count).collect(),
@@ -245,13 +249,10 @@ impl<'a> Fit<'a> {
 
     /// Polynomials of the free speed alone, and impedances of the sizes of forces and speeds.
     fn first_speeds(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<SVector<f64, TOGETHER>> {
-        let all: Vec<SVector<f64, POWERS>> = self
+        let all: Vec<DVector<f64>> = self
             .samples
             .iter()
-            .map(|sample| {
-                let coordinates = self.grid.coordinates(|point| sample.points[point].free);
-                self.grid.coefficients(&coordinates)
-            })
+            .map(|sample| self.cubic.coefficients(|point| sample.points[point].free))
             .collect();
         let weights: Vec<f64> = (0..all.len())
             .map(|load| self.weights[load] / self.spreads[load].powi(2))
@@ -263,7 +264,7 @@ impl<'a> Fit<'a> {
             };
             knots.fitted(places, &column)
         };
-        let speeds: [Vec<f64>; POWERS] =
+        let speeds: [Vec<f64>; SPEED_POWERS] =
             std::array::from_fn(|power| fitted(all.iter().map(|numbers| numbers[power]).collect()));
         let sizes = self.forces.iter().zip(&self.spreads);
         let impedances = fitted(sizes.map(|(force, spread)| force / spread).collect());
@@ -273,7 +274,7 @@ impl<'a> Fit<'a> {
                 for (power, speeds) in speeds.iter().enumerate() {
                     numbers[power] = speeds[knot];
                 }
-                numbers[POWERS] = impedances[knot];
+                numbers[SPEED_POWERS] = impedances[knot];
                 numbers
             })
             .collect()
@@ -293,21 +294,18 @@ impl<'a> Fit<'a> {
             vector += row * missing;
         };
         let weight = self.weights[load].sqrt();
-        let (per_force, per_speed) = (
-            weight / self.forces[load],
-            weight * BESIDE / self.spreads[load],
-        );
+        let (per_force, per_speed) = (weight / self.forces[load], weight / self.spreads[load]);
         for (point, exact) in sample.points.iter().enumerate() {
             let (free, impedance) = self.free_and_impedance(point, numbers);
             let push = sample.held - free;
             let mut by_force = SVector::zeros();
             let mut by_speed = SVector::zeros();
-            for power in 0..POWERS {
-                let at = self.grid.powers[(point, power)];
+            for power in 0..SPEED_POWERS {
+                let at = self.cubic.powers[(point, power)];
                 by_force[power] = -impedance * at * per_force;
                 by_speed[power] = at * per_speed;
                 if power < SLOPES {
-                    by_force[POWERS + power] = push * at * per_force;
+                    by_force[SPEED_POWERS + power] = push * at * per_force;
                 }
             }
             add(by_force, (exact.force - impedance * push) * per_force);
@@ -317,12 +315,12 @@ impl<'a> Fit<'a> {
     }
 
     fn free_and_impedance(&self, point: usize, numbers: &SVector<f64, TOGETHER>) -> (f64, f64) {
-        let powers = self.grid.powers.row(point);
-        let free = (0..POWERS)
+        let powers = self.cubic.powers.row(point);
+        let free = (0..SPEED_POWERS)
             .map(|power| powers[power] * numbers[power])
             .sum();
         let impedance = (0..SLOPES)
-            .map(|power| powers[power] * numbers[POWERS + power])
+            .map(|power| powers[power] * numbers[SPEED_POWERS + power])
             .sum();
         (free, impedance)
     }
@@ -377,20 +375,19 @@ impl<'a> Fit<'a> {
         let weights: Vec<f64> = (0..places.len())
             .map(|load| self.weights[load] / self.torques[load].powi(2))
             .collect();
-        let all: Vec<SVector<f64, POWERS>> = self
+        let all: Vec<DVector<f64>> = self
             .samples
             .iter()
             .zip(places)
             .map(|(sample, place)| {
                 let here = blended(speeds, place);
-                let coordinates = self.grid.coordinates(|point| {
+                self.square.coefficients(|point| {
                     let (free, impedance) = self.free_and_impedance(point, &here);
                     let push = sample.held - free;
                     let gained = self.gained(place, gains, impedance, push);
                     let exact = &sample.points[point];
                     0.5 * (exact.torque + exact.torque_held - gained)
-                });
-                self.grid.coefficients(&coordinates)
+                })
             })
             .collect();
         let columns: [Vec<f64>; POWERS] = std::array::from_fn(|power| {
@@ -425,12 +422,14 @@ impl<'a> Fit<'a> {
 
 /// Brings an impedance within what a law may have, for all deviations.
 fn limit_impedance(numbers: &mut SVector<f64, TOGETHER>) {
-    let mean = numbers[POWERS].clamp(IMPEDANCES[0], IMPEDANCES[1]);
-    numbers[POWERS] = mean;
-    let change: f64 = (1..SLOPES).map(|power| numbers[POWERS + power].abs()).sum();
+    let mean = numbers[SPEED_POWERS].clamp(IMPEDANCES[0], IMPEDANCES[1]);
+    numbers[SPEED_POWERS] = mean;
+    let change: f64 = (1..SLOPES)
+        .map(|power| numbers[SPEED_POWERS + power].abs())
+        .sum();
     if change > LARGEST_CHANGE * mean {
         for power in 1..SLOPES {
-            numbers[POWERS + power] *= LARGEST_CHANGE * mean / change;
+            numbers[SPEED_POWERS + power] *= LARGEST_CHANGE * mean / change;
         }
     }
 }

@@ -11,7 +11,7 @@ use epas_reference::friction::whole_screw::WholeScrew;
 use rayon::prelude::*;
 
 use super::Context;
-use epas_bench::exact_ring::{Case, exact, follow};
+use epas_bench::exact_ring::{Case, Deviation, exact, follow};
 use epas_bench::report::draw::{self, chart, figure, table};
 use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
@@ -46,8 +46,8 @@ impl Run {
             load_per_ball: LOAD / 37.0,
             track: Some(2.0),
             loaded: 1.0,
-            screw: (degrees.to_radians(), 2),
-            nut: (0.0, 1),
+            screw: Deviation::wave(degrees.to_radians(), 2),
+            nut: Deviation::wave(0.0, 1),
             turns: 1.0,
             states,
             ..Case::LIN
