@@ -707,12 +707,12 @@ extern "C" {
 /**
  * Size of `epas_folded_ball_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_WORDS 2288
+#define EPAS_FOLDED_BALL_WORDS 2544
 
 /**
  * Size of `epas_folded_ball_range_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_RANGE_WORDS 6838
+#define EPAS_FOLDED_BALL_RANGE_WORDS 7606
 
 /**
  * Bytes of a state of an adaptation.
@@ -908,7 +908,7 @@ extern "C" {
  * whenever a structure, a function or what a place holds changes. From version 11 on `epas_adaptation_inputs_t` has the lubricant's drag
  * beside the friction torque.
  */
-#define EPAS_ABI_VERSION 12u
+#define EPAS_ABI_VERSION 13u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.

@@ -58,10 +58,10 @@ pub struct LoadShare {
 }
 
 /// Size of `epas_folded_ball_t` in words of four bytes.
-pub const EPAS_FOLDED_BALL_WORDS: usize = 2288;
+pub const EPAS_FOLDED_BALL_WORDS: usize = 2544;
 
 /// Size of `epas_folded_ball_range_t` in words of four bytes.
-pub const EPAS_FOLDED_BALL_RANGE_WORDS: usize = 6838;
+pub const EPAS_FOLDED_BALL_RANGE_WORDS: usize = 7606;
 
 /// Place for a block of a ball screw without cage, decoded, for one friction coefficient. `epas_folded_ball_init` decodes it. The
 /// caller provides it, and leaves it where and as it is for as long as a model is used that was given it: a model reads it in every

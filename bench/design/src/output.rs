@@ -173,7 +173,7 @@ impl FoldedUncaged {
         for (which, figures) in rows {
             lines.push(format!(
                 "certificate: {} rows of {} balls that were not fitted (seed {}), {which}: torque, relative, largest {:.2e}, rms {:.2e}, mean \
-                 {:.1e}, of unflagged rows largest {:.2e}; forces between balls over the largest of their row, rms {:.2e}, of unflagged rows \
+                 {:.1e}, of unflagged rows largest {:.2e}, rms {:.2e}; forces between balls over the largest of their row, rms {:.2e}, of unflagged rows \
                  {:.2e}; flagged {:.0} %",
                 figures.rows,
                 certificate.balls,
@@ -182,6 +182,7 @@ impl FoldedUncaged {
                 figures.torque.rms,
                 figures.torque.mean,
                 figures.unflagged_torque.largest,
+                figures.unflagged_torque.rms,
                 figures.forces.rms,
                 figures.unflagged_forces.rms,
                 100.0 * figures.flagged,
@@ -194,7 +195,7 @@ impl FoldedUncaged {
         let nodes = self.block.nodes();
         Declared {
             doc: format!(
-                "The ball of a screw without cage: `folded: &{name}` of an `PressedScrewConfiguration<{nodes}>`."
+                "The ball of a screw without cage: `folded: &{name}` of an `UncagedBallScrewConfiguration<{nodes}>`."
             ),
             of: format!("epas_friction::scene::FoldedBall<{nodes}>"),
             from: "epas_friction::scene::FoldedBall::read",

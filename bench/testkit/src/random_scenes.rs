@@ -547,11 +547,7 @@ pub fn sound_train<const N: usize>(train: &Train<N>) -> Result<(), String> {
 }
 
 fn ball_numbers(random: &mut Random) -> BallNumbers {
-    let mut powers = |size: f32| {
-        let size = random.of(&[0.0, 1e-3, 0.1, 0.16]) * size;
-        std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0))
-    };
-    let (free, torque) = (powers(1.0), powers(1.0));
+    let (free, torque) = (powers(random), powers(random));
     let impedance = random.size(0.02, 900.0);
     let steep = random.of(&[0.0, 0.01, 0.4]) * impedance;
     BallNumbers {
@@ -565,6 +561,12 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
         slope: random.of(&[0.0, 1e-4, 1.0]) * random.sign(),
         work: random.of(&[0.0, 1.0, 4.0]),
     }
+}
+
+/// Numbers whose sizes add up to less than 1.
+fn powers<const P: usize>(random: &mut Random) -> [f32; P] {
+    let size = random.of(&[0.0, 6e-3, 0.6, 0.96]) / P as f32;
+    std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0))
 }
 
 fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {

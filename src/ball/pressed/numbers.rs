@@ -56,13 +56,13 @@ pub struct FreeMotion {
 }
 
 impl BallNumbers {
-    /// A ball that loses nothing and holds nothing.
+    /// A ball that loses nothing and holds nothing: all bits zero, so that an [empty block](crate::scene::FoldedBall::EMPTY) takes no flash.
     pub const NONE: Self = Self {
         free: [0.0; SPEED_POWERS],
         impedance: [0.0; 3],
         torque: [0.0; POWERS],
         slope: 0.0,
-        work: 1.0,
+        work: 0.0,
     };
 
     #[inline(always)]

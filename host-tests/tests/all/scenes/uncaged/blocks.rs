@@ -3,7 +3,7 @@
 use crate::refusals::assert_refused;
 use epas_friction::Error;
 use epas_friction::ball::pressed::{
-    BallKnot, BallLaw, BallNumbers, FreeMotion, KNOTS, NeighbourNumbers,
+    BallKnot, BallLaw, BallNumbers, FreeMotion, KNOTS, NeighbourNumbers, SPEED_POWERS,
 };
 use epas_friction::scene::FoldedBall;
 
@@ -138,7 +138,7 @@ fn numbers_out_of_range_are_refused_by_name() {
             ("friction", |law, x| law.nodes[0].friction = x, &[9e-7, 0.51]),
             ("friction", |law, x| law.nodes[2].friction = x, &[0.0, 0.51]),
             ("free", |law, x| numbers(law).free[0] = x, &[1.01, -1.01]),
-            ("free", |law, x| numbers(law).free = [x; 6], &[0.17, -0.17]),
+            ("free", |law, x| numbers(law).free = [x; SPEED_POWERS], &[0.101, -0.101]),
             ("impedance", |law, x| numbers(law).impedance[0] = x, &[0.0, -1.0, 1.1e3]),
             ("impedance", |law, x| numbers(law).impedance = [1.0, x, -x], &[0.5, -0.5, 600.0]),
             ("torque", |law, x| numbers(law).torque[5] = x, &[1.01, -1.01]),
@@ -159,7 +159,7 @@ fn numbers_out_of_range_are_refused_by_name() {
     let taken: [fn(&mut BallLaw<BALL_NODES>); 5] = [
         |law| law.deviations = [1e-6, 1.0],
         |law| law.lift_off = 1e7,
-        |law| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        |law| numbers(law).free = std::array::from_fn(|power| if power == 9 { 1.0 } else { 0.0 }),
         |law| neighbours(law).nodes[2].push = [-1e3, 1e3, 0.0],
         |law| numbers(law).slope = -1.0,
     ];
@@ -249,7 +249,7 @@ fn other_blocks_are_refused_by_name() {
     };
     // What fits a checksum of another crate is taken.
     assert_eq!(FoldedBall::read(&sealed(4, 1)), Ok(BALL));
-    assert_eq!(refusal::<1>(&sealed(1, 5)), "version");
+    assert_eq!(refusal::<1>(&sealed(1, 4)), "version");
     assert_eq!(
         refusal::<1>(&sealed(0, u32::from_le_bytes(*b"EPAS"))),
         "magic"
