@@ -20,7 +20,7 @@ pub use numbers::{
 pub use row::{BallOfRow, NeighbourLaw, PressedTorques};
 
 /// Largest friction of both neighbours of a ball that a law holds, over `mu W`.
-const HELD_RUBBING: f32 = 0.3;
+const HELD_RUBBING: f32 = 0.45;
 
 /// Least and largest `mu W` that count, N.
 const SLIDING_LOADS: [f32; 2] = [1e-6, 1e5];
@@ -261,7 +261,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         }
     }
 
-    /// Whether the torque is accurate by the friction of both neighbours on the ball that is rubbed most, N, and its `mu W`, N: up to 0.3 of it.
+    /// Whether the torque is accurate by the friction of both neighbours on the ball that is rubbed most, N, and its `mu W`, N: up to 0.45 of it.
     #[inline(always)]
     #[must_use]
     pub fn holds_rubbing(&self, rubbing: f32, sliding: f32) -> bool {
