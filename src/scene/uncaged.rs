@@ -242,7 +242,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn common(
         &self,
         state: &UncagedState<N>,
