@@ -1,8 +1,8 @@
 //! The numbers of a law at its knots, by least squares over the exact balls.
 //!
-//! Free speed and impedance are fitted together. What a train makes of them is a force, `z (v - u)` at a speed `v` near the held one, and where
-//! balls meet and part, which is the way that differences of free speeds add up to. So errors of the force at the held speed and of the free
-//! speed count alike. The impedance is therefore the secant from the free speed to the held one, not the tangent at either.
+//! Free speed and impedance are fitted together. What a train makes of them is a force, `z (v - u)` at a speed `v` near the held one; and
+//! differences of free speeds, summed over time, say when balls meet. So errors of the force at the held speed and of the free speed count
+//! alike. The impedance is therefore the secant from the free speed to the held one, not the tangent at either.
 
 use epas_friction::ball::pressed::{KNOTS, LARGEST_WORK, POWERS, SPEED_POWERS};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
